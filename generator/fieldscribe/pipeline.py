@@ -98,7 +98,9 @@ def load_analysis(
 
     findings = Report()
     files = read_files(device_file, findings, inputs)
-    analysis = None if files is None else _checked(files, findings)
+    analysis = None
+    if files is not None and not findings.full:  # at the limit of findings, shapes are no longer checked
+        analysis = _checked(files, findings)
     report.extend(findings)
     return None if findings.has_errors and not with_errors else analysis
 
@@ -109,11 +111,15 @@ def load_outline(device_file: Path, report: Report) -> tuple[Map, list[PointFact
     from fieldscribe.resolve.expand import expand
     from fieldscribe.resolve.scope import open_scope
 
-    files = read_files(device_file, report)
-    if files is None:
+    findings = Report()
+    files = read_files(device_file, findings)
+    if files is None or findings.full:
+        report.extend(findings)
         return None
-    scope = open_scope(files, report)
-    return scope.header, list(expand(scope))
+    scope = open_scope(files, findings)
+    points = list(expand(scope))
+    report.extend(findings)
+    return scope.header, points
 
 
 def is_new(device: Device, device_file: Path, known: dict[str, Path], report: Report) -> bool:

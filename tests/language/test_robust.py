@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_device, outputs
+from fieldscribe.diagnostics import MOST_FINDINGS, Report
+from fieldscribe.pipeline import load_device, load_outline, outputs
 from fieldscribe.resolve import expand
 from fieldscribe.targets import TARGETS
 from fuzz.descriptions import mutant, trial
@@ -131,6 +131,13 @@ def test_many_errors_stay_quick(tmp_path: Path) -> None:
     started = time.process_time()
     assert len(load_text(tmp_path, text).findings) == 1001  # the last one says that there are more
     assert time.process_time() - started < 1.5
+
+
+def test_values_beyond_the_last_finding_reach_no_later_stage(tmp_path: Path) -> None:
+    """The shape of a file is checked up to the limit of findings, and no further stage takes what follows."""
+    rows = "".join(f"- {{name: p{n}, at: {n}, type: text, characters: x}}\n" for n in range(MOST_FINDINGS + 1))
+    assert len(load_text(tmp_path, described(rows)).findings) == MOST_FINDINGS + 1
+    assert load_outline(tmp_path / "device.yaml", Report()) is None
 
 
 @pytest.mark.full(seconds=2)

@@ -101,6 +101,8 @@ def fits(layout: Text, text: str) -> bool:
     """Return True if the encoding has all characters of a text, and there is room for them."""
     if layout.is_bytes:
         return bytes_of(layout.encoding, text, layout.characters) is not None
+    if layout.encoding == "ascii" and not text.isascii():
+        return False
     try:
         return bool(words_of_date(layout, text)) if layout.parts else length_of(layout, text) <= layout.characters
     except ValueError:

@@ -46,6 +46,8 @@ class _Overlaps:
     def add(self, resolved: ResolvedPoint, address: int, key: str) -> None:
         """Add a point at the address that this key gives it."""
         others = self.taken.setdefault(word_key(self._analysis, resolved.point, address), [])
+        if len(others) > _MOST:
+            return  # it has a finding
         rows = self._reported_rows
         fresh = [other for other in others if (row := _row(resolved, other)) is None or row not in rows]
         if fresh:

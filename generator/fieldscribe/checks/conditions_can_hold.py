@@ -15,6 +15,7 @@ def check(analysis: Analysis) -> None:
     _circles(analysis)
     coexistence = Coexistence(analysis)
     known: dict[Clause, bool] = {}
+    rows: set[int] = set()
     for resolved in analysis.resolved:
         point = resolved.point
         if ends_before(point.until, point.since):
@@ -26,8 +27,9 @@ def check(analysis: Analysis) -> None:
         for clause in clauses(point):
             if clause not in known:
                 known[clause] = coexistence.possible(clause)
-            if not known[clause]:
+            if not known[clause] and id(resolved.facts.node) not in rows:
                 _report_never_true(analysis, resolved, coexistence, clause)
+                rows.update([id(resolved.facts.node)] if resolved.facts.element else [])
 
 
 def _circles(analysis: Analysis) -> None:
@@ -57,7 +59,9 @@ def _report_never_true(analysis: Analysis, resolved: ResolvedPoint, coexistence:
     hint = "a point has one value at a time: correct the condition, or join its parts with `or`"
     if alone is not None:
         hint = f"`{alone.of}` can be {_domain_text(coexistence.domain(alone.of))}"
-    analysis.report.error("never-true", f"`{text}` is never true", resolved.facts.span("when"), hint)
+    is_selection = alone is not None and (alone.of, alone.than[0]) in resolved.point.selects
+    place = resolved.facts.span("select" if is_selection else "when")
+    analysis.report.error("never-true", f"`{text}` is never true", place, hint)
 
 
 def _domain_text(domain: Domain) -> str:

@@ -5,13 +5,13 @@ from functools import lru_cache
 from fieldscribe.language.keys import facts_of
 from fieldscribe.language.keys.places import POINT
 from fieldscribe.resolve.analysis import Analysis
-from fieldscribe.resolve.point_facts import PointFacts
+from fieldscribe.resolve.point_facts import PointFacts, is_counted
 from fieldscribe.resolve.points import ResolvedPoint
 from fieldscribe.schema_types import NUMBERS, WHOLE_NUMBERS
 
 _OF_INTEGERS = facts_of(POINT, WHOLE_NUMBERS)
 _OF_PATTERNS = tuple(key for key in (*_OF_INTEGERS, "range", "range_in_units", "scale") if key not in ("enum", "open"))
-_OF_NUMBERS = facts_of(POINT, WHOLE_NUMBERS, NUMBERS)
+_OF_NUMBERS = (*facts_of(POINT, WHOLE_NUMBERS, NUMBERS), "words")
 _NO_NUMBERS = {
     "a date or time": (tuple(key for key in _OF_NUMBERS if key != "coding"), "its parts are all that it means"),
     "made of bytes": (_OF_NUMBERS, "its `notation` says all about it"),
@@ -55,9 +55,7 @@ def check(analysis: Analysis) -> None:
         if shape.type == "bit" and facts.get("scale") is not None and "type" not in facts.failed:
             message = f"`{facts.name}` is a single bit, which is 0 or 1 and has no scale"
             analysis.report.error("two-meanings", message, facts.span("scale"), "name its two states by an `enum`")
-        if facts.get("fixed") is not None and not shape.writable:
-            message = f"`fixed` says what is written, and `{facts.name}` is only read"
-            analysis.report.error("two-meanings", message, facts.span("fixed"), "leave it out, or correct `access`")
+        _needless(analysis, facts, writable=shape.writable)
         for first, second, hint in _rivals_among(tuple(facts.keys)):
             if first == "fixed" and resolved.point.bits is not None:
                 continue
@@ -65,6 +63,17 @@ def check(analysis: Analysis) -> None:
                 related = [(facts.span(first), f"`{first}` stands here")]
                 message = f"`{facts.name}` cannot have both `{first}` and `{second}`"
                 analysis.report.error("two-meanings", message, facts.span(second), hint, related)
+
+
+def _needless(analysis: Analysis, facts: PointFacts, *, writable: bool) -> None:
+    """Report `fixed` of a point that is only read, and `most` of a row whose elements the device does not count."""
+    if facts.get("fixed") is not None and not writable:
+        message = f"`fixed` says what is written, and `{facts.name}` is only read"
+        analysis.report.error("two-meanings", message, facts.span("fixed"), "leave it out, or correct `access`")
+    if "most" in facts.node and not is_counted(facts):
+        message = f"`most` is for elements that the device counts, and `{facts.name}` has none"
+        hint = "leave it out, or let the device count: `indices: 1..phases`, or `indices: to end` in a block"
+        analysis.report.error("two-meanings", message, facts.span("most"), hint)
 
 
 def _alien_to(facts: PointFacts) -> tuple[tuple[str, ...], str, str] | None:

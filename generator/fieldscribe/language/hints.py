@@ -46,7 +46,9 @@ def type_hint(value: Any, accepted: Collection[type], shape: ValueShape) -> str:
     hint = None
     if isinstance(value, int | Decimal):
         form = next((kind.form for kind in shape.kinds if isinstance(kind, Text)), None)
-        hint = _about_number(value, accepted, example, form)
+        choices = next((kind.choices for kind in shape.kinds if isinstance(kind, Text)), ())
+        one_of = f"write one of {', '.join(choices)}" if choices and not isinstance(value, bool) else None
+        hint = one_of or _about_number(value, accepted, example, form)
     elif isinstance(value, str) and (int in accepted or Decimal in accepted):
         hint = _number_hint(value, Decimal in accepted)
     elif bool in accepted:
@@ -105,8 +107,10 @@ def key_hint(key: str, known: Collection[str], written: Iterable[Form], value: A
     """Return the hint for an unknown key with this value."""
     if key == "<<":
         return "merge keys are not part of YAML 1.2: write the keys out, or share them under `formats`"
-    if "parts" in known and (key == "groups" or key in keys_of(GROUP)):
+    if "documents" in known and (key == "groups" or key in keys_of(GROUP)):
         return _GROUP
+    if "at" in known and "name" in known and key in keys_of(GROUP):
+        return f"write `{key}` at the group, above its `points`"
     if "group" in known and key in keys_of(DEVICE):
         return "this key belongs in the head of device.yaml, its first document"
     suggestion = key_suggestion(key, value, known)

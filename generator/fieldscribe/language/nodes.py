@@ -46,14 +46,15 @@ class Map(dict[str, Any]):
 
 
 class Seq(list[Any]):
-    """A YAML list that starts at this offset of its file; `uses` as in `Map`."""
+    """A YAML list that starts at this offset of its file; `broken` if wrong items were dropped; `uses` as in `Map`."""
 
-    __slots__ = ("_item_places", "file", "start", "uses")
+    __slots__ = ("_item_places", "broken", "file", "start", "uses")
 
     def __init__(self, file: SourceFile, start: int) -> None:
         self.file = file
         self.start = start
         self._item_places: list[Place] | None = None
+        self.broken = False
         self.uses: dict[object, tuple[Seq, bool]] | None = None
 
     def copied(self) -> Seq:
@@ -66,6 +67,7 @@ class Seq(list[Any]):
     def drop(self, index: int) -> None:
         """Remove an item; the places of the others stay correct."""
         del self[index], self._places[index]
+        self.broken = True
 
     def span(self, index: int | None = None) -> Span:
         """Return the place of the item, or of the whole list."""

@@ -70,7 +70,9 @@ class ShapeCheck:
         if type(value) not in self.checks:
             wanted = "yes or no" if self.yes_no else " or ".join(kind.words for kind in self.shape.kinds)
             message = f"expected {wanted}, found {value_text(value)}"
-            hint = value_hint(at, value) or type_hint(value, self.checks, self.shape)
+            only_brackets = isinstance(value, int) and list(self.checks) == [Seq]
+            hint = None if only_brackets else value_hint(at, value)
+            hint = hint or type_hint(value, self.checks, self.shape)
             report.error("wrong-type", message, holder.span(at), hint)
             return False
         check = self.checks[type(value)]

@@ -101,7 +101,7 @@ def _base_of(scope: Scope, group: Map) -> Base | None:
     if formula is not None and block is None:
         return _by_formula(scope, group, str(formula))
     number, found = integer(block, group.span("block"), scope.report), scope.found
-    if number is None or (found is None and scope.header.get("found")):
+    if number is None or (found is None and _is_stated(scope, "found")):
         raise FactError  # it has a finding
     if found is None:
         hint = "declare how the blocks are found: `found` at the head of device.yaml"
@@ -116,11 +116,16 @@ def _base_of(scope: Scope, group: Map) -> Base | None:
     return start if formula is None else _in_block(scope, group, str(formula), start)
 
 
+def _is_stated(scope: Scope, key: str) -> bool:
+    """Return True if the head has the key, also with a value that was dropped as wrong."""
+    return key in scope.header or key in scope.header.broken
+
+
 def _in_block(scope: Scope, group: Map, formula: str, start: Base) -> Base:
     """Return a base that is counted from the start of a block, which points of the block may move. Raises FactError."""
     span, places = group.span("base"), dict(_counting_points(scope, group))
-    unknown = f"points of the block that can count are: {', '.join(places) or 'none'}"
-
+    counting = "a point that counts is a whole word (u16) at a fixed place of the block"
+    unknown = f"{counting}; there {'are' if places else 'is'} {', '.join(places) or 'none'}"
     offset, factors = formula_multiples(formula, places, span, unknown)
     if min(offset, *factors.values(), 0) < 0:
         raise FactError("bad-formula", f"`{formula}` can lie before the block", span, "points of a block count words")
@@ -149,8 +154,9 @@ def _whole(value: object) -> int | None:
 def _by_formula(scope: Scope, group: Map, formula: str) -> Base:
     """Return the base that a formula gives; it is within 0..65535 for all given numbers. Raises FactError."""
     span, given = group.span("base"), scope.given
-    if not given and scope.header.get("given"):
-        raise FactError  # they have findings
+    stated = scope.header.get("given")
+    if _is_stated(scope, "given") and (stated is None or stated.broken or len(given) < len(stated)):
+        raise FactError  # a number has a finding
     unknown = f"given are: {', '.join(given)}" if given else "declare the number under `given`, at the head"
     offset, factors = formula_multiples(formula, given, span, unknown)
     terms = tuple((name, factors[name]) for name in given if name in factors)

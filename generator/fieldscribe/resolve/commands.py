@@ -1,10 +1,14 @@
 """Resolves commands (a constant under a name, or several requests in order), and what identifies a device."""
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any
 
 from fieldscribe.arithmetic.texts import fits
+from fieldscribe.diagnostics import Span
 from fieldscribe.families import families
 from fieldscribe.language.nodes import Map, Seq
+from fieldscribe.language.numbers import is_whole_number
 from fieldscribe.language.suggestions import space_hint
 from fieldscribe.model import Bus, Command, Identification, Point, SteppedCommand, Variant
 from fieldscribe.resolve.bus import NO_BUS, reader_of
@@ -12,7 +16,7 @@ from fieldscribe.resolve.scope import Scope, source_of, titles
 from fieldscribe.resolve.steps import Steps
 from fieldscribe.resolve.symbols import SymbolTable
 from fieldscribe.resolve.values import integer
-from fieldscribe.text import humanised
+from fieldscribe.text import humanised, shortened
 
 _NEEDED = ("at", "function", "value")
 _ALONE = (*_NEEDED, "space", "wears", "busy")
@@ -40,7 +44,7 @@ def commands_of(
             _refuse_other_keys(scope, node)
             several = Steps(scope, bus, symbols, points).command(node)
             stepped += [] if several is None else [several]
-        elif not _lacks(scope, node):
+        elif "steps" not in node.broken and not _lacks(scope, node):
             command = _command(scope, bus, node)
             single += [] if command is None else [command]
     return tuple(single), tuple(stepped)
@@ -124,12 +128,20 @@ def identifications_of(scope: Scope, symbols: SymbolTable, points: Mapping[str, 
         for axis, entry in scope.axes.items()
         for value, facts in entry["values"].items()
     ]
-    return tuple(
-        identification
-        for variant, node in stated
-        if node is not None
-        for identification in _identifications(scope, symbols, points, variant, node)
-    )
+    found: list[Identification] = []
+    known: dict[tuple[str, tuple[Identification, ...]], str] = {}
+    for variant, node in stated:
+        if node is None:
+            continue
+        these = tuple(_identifications(scope, symbols, points, variant, node))
+        found += these
+        if variant is not None:
+            other = known.setdefault((variant.axis, tuple(replace(one, variant=None) for one in these)), variant.value)
+            if these and other != variant.value:
+                message = f"nothing tells {variant.value} and {other} apart: the device holds the same for both"
+                hint = "give one of them what only it holds"
+                scope.report.error("identify", message, node.span(), hint)
+    return tuple(found)
 
 
 def _identifications(
@@ -144,7 +156,7 @@ def _identifications(
         if facts.failed:
             continue
         plain = not point.info.floating and not (point.text is not None and (point.text.is_bytes or point.text.parts))
-        if point.variant is not None or not point.readable or not point.generated or not plain:
+        if not _is_there(point, variant, scope) or not point.readable or not point.generated or not plain:
             message = f"`{point.name}` cannot identify a device"
             hint = "name a point that every variant has and that can be read: a whole number or a text"
             scope.report.error("identify", message, node.key_span(word), hint)
@@ -152,19 +164,38 @@ def _identifications(
         items = list(enumerate(held)) if isinstance(held, Seq) else [(None, held)]
         if point.text is not None:
             if not all(fits(point.text, str(item)) for _, item in items):
-                hint = f"a text of it has at most {point.text.characters} characters"
+                hint = f"a text of it has at most {point.text.characters} characters, in {point.text.encoding}"
                 scope.report.error("identify", f"`{point.name}` cannot hold this text", node.span(word), hint)
             yield Identification(variant, point.name, (), tuple(str(item) for _, item in items))
             continue
         names = {} if point.enum is None else {entry.name: entry.raw for entry in point.enum.entries}
-        raws = [
-            names[str(item)]
-            if str(item) in names
-            else integer(item, node.span(word) if place is None else held.span(place), scope.report)
-            for place, item in items
-        ]
+        spans = [node.span(word) if place is None else held.span(place) for place, _ in items]
+        raws = [_raw(scope, names, item, span) for (_, item), span in zip(items, spans, strict=True)]
         outside = next((raw for raw in raws if raw is not None and not point.held[0] <= raw <= point.held[1]), None)
         if outside is not None:
             message, hint = f"`{point.name}` cannot hold {outside}", f"write {point.held[0]}..{point.held[1]}"
             scope.report.error("identify", message, node.span(word), hint)
         yield Identification(variant, point.name, tuple(raw for raw in raws if raw is not None), ())
+
+
+def _is_there(point: Point, variant: Variant | None, scope: Scope) -> bool:
+    """Return True if every variant has the point, or at least the one that it identifies."""
+    given = {} if variant is None else {variant.axis: variant.value}
+    return point.variant is None and (
+        point.when is None
+        or any(
+            all(test.of not in scope.axes or (test.of in given and test.holds(given[test.of])) for test in clause)
+            for clause in point.when.clauses
+        )
+    )
+
+
+def _raw(scope: Scope, names: Mapping[str, int], item: Any, span: Span) -> int | None:
+    """Return the raw number of a name or a number; None after a finding."""
+    if isinstance(item, str) and not is_whole_number(item):
+        if item not in names and names:
+            scope.unknown("entry", item, span, names)
+        elif item not in names:
+            scope.report.error("bad-number", f"`{shortened(item)}` is no number", span, "write a raw number, or a list")
+        return names.get(item)
+    return integer(item, span, scope.report)

@@ -64,6 +64,8 @@ def _base_of(match: re.Match[str], bits: tuple[int, int]) -> int:
 
 def is_date(scope: Scope, facts: PointFacts, layout: Text) -> bool:
     """Return True for a date and time; report parts that do not form one, and impossible places."""
+    if facts.get("parts").broken:
+        return False
     faults = [*_faults(facts, layout), *_misplaced(facts, layout)]
     if not faults and first_date(layout) is None:
         faults = [(f"`{facts.name}` can hold no date", "give its parts the bits that a date needs", "parts")]

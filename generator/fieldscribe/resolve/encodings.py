@@ -191,7 +191,11 @@ def _type_fault(
     """Return rule, message and hint for a type that does not fit space and bits; None if it fits."""
     info = type_info(type_name)
     if type_name == "text" and (single or width is not None):
-        return "type-outside-space", "texts and bytes take whole words", "leave `bits` out, and choose a space of words"
+        return (
+            "type-outside-space",
+            "texts, bytes and dates take whole words",
+            "leave `bits` out, and choose a space of words",
+        )
     if width is not None:
         if width <= info.bits <= 16 and not info.floating:
             return None

@@ -190,7 +190,9 @@ class StatedValues:
         elif point.scale is not None or point.info.floating or exact == raw:
             return raw
         message = f"`{word}` cannot be {value}: that is raw {number_text(exact)}"
-        raise FactError("bad-number", message, span, "give the value as printed, in the unit of the point")
+        raise FactError(
+            "bad-number", message, span, f"give a value of the point, in its unit, or the raw number: `{word}{RAW}: …`"
+        )
 
     def _no_number(self, point: Point, word: str, error: CodecError) -> FactError:
         """Return the error for a value that has no raw number."""

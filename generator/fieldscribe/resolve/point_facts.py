@@ -16,10 +16,11 @@ from fieldscribe.language.formula.syntax import FormulaError
 from fieldscribe.language.keys import inherited
 from fieldscribe.language.keys.places import GROUP
 from fieldscribe.language.nodes import Map
-from fieldscribe.language.numbers import plain_number
+from fieldscribe.language.numbers import is_whole_number, plain_number
 from fieldscribe.model import Titles, Variant, item_of, type_info
 from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.values import integer, interval
+from fieldscribe.text import shortened
 from fieldscribe.wording.exact import number_text
 
 MOST_ELEMENTS = 4096
@@ -267,6 +268,11 @@ class PointFacts:
         return self.name if self.variant is None else item_of(self.name, self.variant)
 
 
+def is_counted(row: PointFacts) -> bool:
+    """Return True if the device decides how many sets or indices there are."""
+    return any(_COUNTED.fullmatch(str(row.get(plural))) for plural in ("sets", "indices"))
+
+
 def elements_of(scope: Scope, row: PointFacts) -> list[Element]:
     """Return the elements of a row, set by set and in each set index by index; none after a finding."""
     rows = isinstance(row.get("sets"), Map)  # each further set has a row of its own
@@ -325,6 +331,10 @@ def _axis(scope: Scope, row: PointFacts, plural: str, singular: str) -> _Axis | 
         counter, ends = counted["point"] or "", None if most is None else (int(counted["low"] or 1), most)
     elif ".." in text:
         ends = interval(text, span, scope.report)
+    elif isinstance(raw, str) and not is_whole_number(raw):
+        hint = f"write a count, an interval such as `{plural}: 0..1`, a point that counts (`1..phases`), or `to end`"
+        scope.report.error("bad-number", f"`{shortened(text)}` is no count of elements", span, hint)
+        ends = None
     else:
         count = integer(raw, span, scope.report)
         ends = None if count is None else (1, count)
@@ -351,9 +361,8 @@ def _most(scope: Scope, row: PointFacts, plural: str, text: str) -> int | None:
     if text == TO_END and (plural != "indices" or "block" not in row.group):
         message, hint = "nothing ends here: the group counts from no found block", "write `block: …` at the group"
         scope.report.error("missing-key", message, row.span(plural), hint)
-    elif most is None:
+        return None
+    if most is None and "most" not in row.node.broken:
         hint = f"add `most: 20`, the greatest {'index' if plural == 'indices' else 'set'} to describe"
         scope.report.error("missing-key", f"`{plural}: {text}` has no end", row.span(plural), hint)
-    else:
-        return most
-    return None
+    return most

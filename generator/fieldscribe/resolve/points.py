@@ -260,6 +260,12 @@ def _view_of(facts: PointFacts, symbols: SymbolTable) -> str | None:
     elif viewed is facts:
         message = f"`{facts.name}` cannot be a view of itself"
         symbols.scope.report.error("two-meanings", message, facts.span("view_of"), "name another point")
+    elif (first := viewed.get("view_of")) is not None:
+        message, hint = f"`{word}` is a view itself", f"write `view_of: {first}`, which it is a view of"
+        if symbols.find(first, viewed) is facts:
+            hint = "leave `view_of` out at one of them"
+        symbols.scope.report.error("view", message, facts.span("view_of"), hint)
+        facts.failed.add("view_of")
     return None if viewed is None else viewed.name
 
 

@@ -52,6 +52,8 @@ class Steps:
             if len(node.get(key, ())) > most:
                 self._report(f"a command has at most {most} {key}", node.key_span(key), "make it several commands")
                 return None
+        if "arguments" in node.broken or (stated and stated.broken):
+            return None
         steps: list[Step] = []
         for step in node["steps"]:
             try:
@@ -60,6 +62,9 @@ class Steps:
                 error.report(self.scope.report)
         if self.scope.report.count > before:
             return None
+        used = {word.argument for step in steps for word in step.words}
+        if unused := next((name for name in self.arguments if name not in used), None):
+            self._report(f"no step uses the argument `{unused}`", stated.key_span(unused), "use it, or leave it out")
         name = str(node["name"])
         return SteppedCommand(
             name=name,
@@ -202,6 +207,9 @@ class Steps:
             word = self._formula(value, span)
             said = str(word)
         else:
+            if str(value) in self.arguments:
+                message = f"`{value}` is an argument, and `{named}` takes values"
+                raise FactError("steps", message, span, f"arguments are raw numbers: write `{named}{RAW}: {value}`")
             word = Word(StatedValues(self.scope, values).raw(point, named, value))
             said = meaning_text(point, word.constant) or str(word)
         self._said.append(f"{named} = {said}")

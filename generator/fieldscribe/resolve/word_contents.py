@@ -341,7 +341,12 @@ def checked_bytes(scope: Scope, facts: PointFacts, layout: Text) -> Text:
     """Return the layout of bytes; report facts that they cannot have."""
     for key in _OF_CHARACTERS:
         if facts.get(key) is not None and facts.layer(key) is not facts.group:
-            hint = "bytes have a `notation`, and a `length` in words: leave it out"
+            what = (
+                "a date or time has its `parts`"
+                if facts.get("parts")
+                else "bytes have a `notation` and a `length` in words"
+            )
+            hint = f"{what}: leave it out"
             scope.report.error("text-fact", f"`{key}` is for texts", facts.span(key), hint)
     if facts.get("length") not in (None, layout.words):
         message = f"{layout.encoding} is {layout.characters} bytes, which take {layout.words} words"
