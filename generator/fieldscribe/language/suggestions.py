@@ -158,6 +158,8 @@ VALUES: tuple[tuple[str, str, Hint], ...] = (
     ("type", r"(?:u|uint|unsigned)(24|40|48|56)(?:_t)?", r"write `type: u\1`"),
     ("type", r"(?:s|i|int|sint|signed)(24|40|48|56)(?:_t)?", r"write `type: s\1`"),
     ("type", "int|integer", "write `type: s16` or `type: s32`"),
+    ("type", "date|date[_ ]?time|clock", "a date has no type: write its parts, such as `parts: [year, month, day]`"),
+    ("type", "ipv6|eui64|version", r"write `type: bytes` with `notation: \g<0>`"),
     (
         "type",
         r"[usi]?(?:int)?128(?:_t)?",

@@ -287,7 +287,10 @@ class Places:
         if element is None or (element.set_number is None and (element.index is None or indexed)):
             return number
         message = "nothing says how the address follows from the number, the set and the index"
-        hint = "add `addressing: …` to the group, such as `number * 64 + (index - 1) * sets + (set - 1)`"
+        example = "number * 64 + (index - 1) * sets + (set - 1)"
+        if element.set_number is None:
+            example = "number + (index - 1) * 2"
+        hint = f"add `addressing: …` to the group, such as `{example}`"
         rows = "; sets that follow no rule have rows: `sets: {2: {at: …}}`" if "sets" in element.counted else ""
         raise FactError("missing-key", message, facts.span("at"), hint + rows)
 

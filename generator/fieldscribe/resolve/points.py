@@ -173,6 +173,8 @@ def _untyped(scope: Scope, facts: PointFacts) -> str | None:
         scope.report.error("two-meanings", message, words.span("untyped"), hint)
     elif facts.untyped is None and "length" in facts.node and not (facts.bytes or facts.failed & {"type", "untyped"}):
         is_text = facts.get("type") == "text"
+        if is_text and facts.get("characters") is None:
+            return None  # it has a finding
         how = "`characters` say" if is_text else "its type says"
         hint = f"{how} how many words it takes: leave `length` out"
         scope.report.error("two-meanings", f"`{facts.name}` has a type", facts.span("length"), hint)

@@ -147,8 +147,9 @@ def text_of(scope: Scope, facts: PointFacts) -> Text | None:
     if "characters" in facts.failed:
         return None
     if facts.get("characters") is None:
+        counts = "write `characters` in place of `length`, which counts the words of bytes"
         message, hint = f"`{facts.name}` does not say how long the text is", "add `characters: …`"
-        scope.report.error("missing-key", message, facts.span("type"), hint)
+        scope.report.error("missing-key", message, facts.span("type"), counts if "length" in facts.node else hint)
     elif layout.encoding == "utf-16" and facts.get("per_word", 1) > 1:
         message, hint = "a word holds one 16-bit unit of utf-16", "leave `per_word` out"
         scope.report.error("text-length", message, facts.span("per_word"), hint)
