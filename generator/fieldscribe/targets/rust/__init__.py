@@ -33,7 +33,7 @@ def outputs(device: Device, render: Render, *, tests: bool = True) -> Iterable[t
         from fieldscribe.targets.rust.conformance import arms, conformance_tables
 
         tables = conformance_tables(scope, device)
-        suite = {**context, "tables": tables, "kinds": {table.name for table in tables}, "arms": tuple(arms(tables))}
+        suite = {**context, "tables": tables, "arms": dict(arms(tables))}
         yield f"{folder}/conformance/Cargo.toml", render("rust/conformance.toml.j2", context)
         yield f"{folder}/conformance/tests/conformance.rs", render(f"rust/{device.family}_conformance.rs.j2", suite)
 

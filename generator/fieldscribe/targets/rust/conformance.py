@@ -8,46 +8,10 @@ from fieldscribe.model import Device
 from fieldscribe.targets.placeholders import TextTemplates, placeholders
 from fieldscribe.targets.rust.conformance_rows import Spot, bracketed, rows_of
 from fieldscribe.targets.rust.families import END, Table, Tokens, in_rust, row_text
+from fieldscribe.targets.rust.layout import Lines
 from fieldscribe.targets.rust.literals import type_name
 from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 from fieldscribe.text import rust_string, upper
-
-_ALWAYS = {
-    "decode": "decode",
-    "encode": "encode",
-    "decode_count": "decode_count",
-    "decode_plain": "decode_plain",
-    "decode_coded": "decode_coded",
-    "decode_mixed": "decode_count",
-    "encode_count": "encode_count",
-    "encode_plain": "encode_plain",
-    "encode_coded": "encode_coded",
-    "encode_mixed": "encode_count",
-    **{name: name for name in ("check", "name", "special", "special_name", "flag", "flag_name", "bits", "words")},
-    **{name: name for name in ("address", "symbol")},
-}
-"""The tables that every program has, with the runner's function."""
-
-_SOMETIMES = (
-    *(
-        "place",
-        "write_address",
-        "fixed",
-        "display",
-        "epoch",
-        "told",
-        "text_decode",
-        "text_encode",
-        "unicode_decode",
-        "unicode_encode",
-        "date_decode",
-        "date_encode",
-        "bytes_decode",
-        "bytes_encode",
-    ),
-    *("digits", "digits_coded", "digits_encode", "digits_encode_coded"),
-)
-"""The tables that a program has only with rows."""
 
 _CHAIN = 60
 """A chain of calls on one line has at most this many characters."""
@@ -56,18 +20,8 @@ Rows = dict["Spot", list[str]]
 
 
 def conformance_tables(scope: CrateScope, device: Device) -> tuple[Table, ...]:
-    """Return the tables by kind; rows are tokens that the runner's macro reads."""
-    rows = _rows(scope)
-    parts: dict[str, list[str]] = {}
-    for spot in sorted(rows, key=lambda spot: spot.part):
-        parts.setdefault(spot.table, []).extend(rows[spot])
-    return (
-        *(Table(name, run, parts.get(name, ())) for name, run in _ALWAYS.items()),
-        *(Table(name, name, parts[name]) for name in _SOMETIMES if name in parts),
-        *in_rust(scope.family).tables_of_points(scope),
-        *(Table(spot.table, spot.run, rows[spot], spot.kind) for spot in rows if spot.kind),
-        *_protocol(device),
-    )
+    """Return the tables in the order of their first points; rows are tokens that the runner's macro reads."""
+    return *(Table(spot.name, spot.run, rows, spot.kind) for spot, rows in _rows(scope).items()), *_protocol(device)
 
 
 def _rows(scope: CrateScope) -> Rows:
@@ -105,9 +59,9 @@ def _text_of(rows: Iterable[Tokens]) -> str:
 
 
 def _protocol(device: Device) -> Iterator[Table]:
-    """Yield the tables of the numbers of the protocol, and of commands."""
+    """Yield the tables of the numbers of the protocol, of documented points, and of commands."""
     part = in_rust(device.family)
-    rows: dict[str, list[str]] = {"constant": []}
+    rows: dict[str, list[str]] = {}
     for codes in family(device.family).codes:
         kind, module, how = "constant", f"{codes.kind}s", "code"
         if codes.section == "exceptions":
@@ -115,15 +69,12 @@ def _protocol(device: Device) -> Iterator[Table]:
         for code in device.bus.codes(codes.section) if codes.emitted else ():
             row = item_row(f"{codes.kind} {code.name}", module, how, upper(code.name))
             rows.setdefault(kind, []).append(row)
-    yield from (Table(kind, "code", of_kind) for kind, of_kind in rows.items() if of_kind)
+    rows["documented"] = [
+        item_row(point.item, "points", "documented", upper(point.item)) for point in device.points if point.raw_only
+    ]
+    rows["command"] = [item_row(each.name, "commands", "sent", upper(each.name)) for each in device.commands]
+    yield from (Table(kind, kind, of_kind, kind) for kind, of_kind in rows.items() if of_kind)
     yield from part.tables_of_frames(device)
-    raw_only = [point.item for point in device.points if point.raw_only]
-    if raw_only:
-        documented = [item_row(item, "points", "documented", upper(item)) for item in raw_only]
-        yield Table("documented", "documented", documented)
-    if device.commands:
-        sent = [item_row(command.name, "commands", "sent", upper(command.name)) for command in device.commands]
-        yield Table("command", "command", sent)
 
 
 def item_row(key: str, module: str, how: str, name: str) -> str:
@@ -131,17 +82,12 @@ def item_row(key: str, module: str, how: str, name: str) -> str:
     return row_text((rust_string(key), module, *bracketed((how, name))))
 
 
-def arms(tables: Iterable[Table]) -> Iterator[str]:
-    """Yield the match arms that choose the table for vectors of whole exchanges, laid out as by rustfmt."""
+def arms(tables: Iterable[Table]) -> Iterator[tuple[str, Lines]]:
+    """Yield each kind of vectors with the chain of tables that answer it, in lines as rustfmt lays them out."""
     answering: dict[str, list[str]] = {}
     for table in tables:
         answering.setdefault(table.kind, []).append(f"{table.name}(vector)")
-    for kind in ("read", "write", "store"):
-        calls = answering.get(kind, [])
-        chain = [*calls[:1], *(f".or_else(|| {call})" for call in calls[1:])]
-        if not chain:
-            continue
-        on_one_line = len(chain) == 2 or len("".join(chain)) <= _CHAIN
-        lines = ["".join(chain)] if on_one_line else [chain[0], *(f"    {link}" for link in chain[1:])]
-        lines[0] = f'"{kind}" => {lines[0]}'
-        yield from (*lines[:-1], f"{lines[-1]},")
+    for kind, calls in answering.items():
+        chain = [calls[0], *(f".or_else(|| {call})" for call in calls[1:])]
+        on_one_line = len(chain) <= 2 or len("".join(chain)) <= _CHAIN
+        yield kind, ("".join(chain),) if on_one_line else (chain[0], *(f"    {link}" for link in chain[1:]))

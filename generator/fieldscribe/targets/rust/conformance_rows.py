@@ -12,12 +12,15 @@ from fieldscribe.text import rust_string
 
 
 class Spot(NamedTuple):
-    """Where a row belongs: its table, the part of the table, and for exchanges the runner's function and the kind."""
+    """Where a row belongs: the kind of the vectors, and the function of the runner that answers them."""
 
-    table: str
-    part: int = 0
-    run: str = ""
-    kind: str = ""
+    kind: str
+    run: str
+
+    @property
+    def name(self) -> str:
+        """The name of the table."""
+        return f"{self.kind}_by_{self.run}" if self.kind in ("read", "write", "store") else self.run
 
 
 Row = tuple[Spot, "Tokens"]
@@ -29,10 +32,9 @@ def rows_of(subject: CratePoint, enum: str, scope: CrateScope) -> Iterator[Row]:
     yield from _conversions(subject)
     yield from _flags(subject)
     if enum:
-        name = Spot("name", part=1 if point.form == "digits" else 0)
-        yield name, (_quoted(subject.item), enum, *bracketed(("enum", subject.carried)))
+        yield Spot("name", "name"), (_quoted(subject.item), enum, *bracketed(("enum", subject.carried)))
     alone = row_of(subject, ("(alone)",))
-    for table, holds in (
+    for kind, holds in (
         ("special", point.specials),
         ("special_name", point.specials),
         ("bits", point.bits),
@@ -45,43 +47,43 @@ def rows_of(subject: CratePoint, enum: str, scope: CrateScope) -> Iterator[Row]:
         ("epoch", bool(point.epoch)),
     ):
         if holds:
-            yield Spot(table), alone
-    yield Spot("address"), row_of(subject, _references(point))
+            yield Spot(kind, kind), alone
+    yield Spot("address", "address"), row_of(subject, _references(point))
     if point.display is not None:
-        yield Spot("told"), _read(subject)
+        yield Spot("told", "told"), _read(subject)
     if point.addresses:
         yield from _exchanges(subject, scope)
+    for kind in in_rust(scope.family).kinds(subject, scope):
+        yield Spot(kind, kind), row_of(subject, ("(frames)",))
 
 
 def _conversions(subject: CratePoint) -> Iterator[Row]:
     """Yield the rows by which a point is decoded, encoded and checked."""
-    point, (decodes, encodes, checks) = subject.point, _conversion_spots(subject)
-    layout = _layout(subject)
+    point, layout, (decodes, encodes) = subject.point, _layout(subject), _conversion_spots(subject)
     if point.readable:
         yield from ((spot, row_of(subject, layout) if layout else _read(subject)) for spot in decodes)
     if point.writable:
         yield from ((spot, row_of(subject, layout) if layout else _written(subject)) for spot in encodes)
-        yield from ((spot, _written(subject)) for spot in checks)
+        if point.form != "text":
+            yield Spot("check", "check"), _written(subject)
 
 
-def _conversion_spots(subject: CratePoint) -> tuple[list[Spot], list[Spot], list[Spot]]:
-    """Return the spots for decoding, encoding and checking of a point."""
+def _conversion_spots(subject: CratePoint) -> tuple[list[Spot], list[Spot]]:
+    """Return the spots for decoding and encoding of a point."""
     point = subject.point
-    if point.form == "scaled":
-        counted = point.decimals is not None
-        encodes = [Spot("encode")] * point.encodes_values + [Spot("encode_count")] * counted
-        return [Spot("decode")] + [Spot("decode_count")] * counted, encodes, [Spot("check")]
-    if point.form == "float":
-        return [Spot("decode", 1)], [Spot("encode", 1)], [Spot("check", 4)]
-    if point.form == "text":
-        kind = "text" if point.text is None else _kind_of(point.text)
-        return [Spot(f"{kind}_decode")], [Spot(f"{kind}_encode")], []
+    if point.form in ("scaled", "float"):
+        decodes, encodes = ["decode"], ["encode"] if point.form == "float" or point.encodes_values else []
+        if point.form == "scaled" and point.decimals is not None:
+            decodes, encodes = [*decodes, "decode_count"], [*encodes, "encode_count"]
+        return [Spot(kind, kind) for kind in decodes], [Spot(kind, kind) for kind in encodes]
+    if point.text is not None:
+        kind = _kind_of(point.text)
+        return [Spot(f"{kind}_decode", f"{kind}_decode")], [Spot(f"{kind}_encode", f"{kind}_encode")]
     if point.form == "digits":
         coded = "_coded" if point.specials else ""
-        return [Spot(f"digits{coded}")], [Spot(f"digits_encode{coded}")], [Spot("check", 5)]
-    mixed = subject.carried != subject.raw
-    how, part = ("mixed", 3) if mixed else ("coded", 2) if point.specials else ("plain", 1)
-    return [Spot(f"decode_{how}")], [Spot(f"encode_{how}")], [Spot("check", part)]
+        return [Spot("digits", f"digits{coded}")], [Spot("digits_encode", f"digits_encode{coded}")]
+    how = "count" if subject.carried != subject.raw else "coded" if point.specials else "plain"
+    return [Spot("decode_count", f"decode_{how}")], [Spot("encode_count", f"encode_{how}")]
 
 
 def _kind_of(text: Text) -> str:
@@ -105,17 +107,17 @@ def _flags(subject: CratePoint) -> Iterator[Row]:
     for flag in subject.point.flags:
         if subject.point.form == "flags":
             calls = bracketed(("flag", subject.raw, getter_name(flag.name), f"with_{flag.name}"))
-            yield Spot("flag"), (_quoted(f"{item} {flag.name}"), subject.name, *calls)
+            yield Spot("flag", "flag"), (_quoted(f"{item} {flag.name}"), subject.name, *calls)
         for entry in flag.values if flag.width > 1 else ():
             value = bracketed(("value", f"{flag.name.upper()}_{entry.name.upper()}"))
-            yield Spot("flag_name"), (_quoted(f"{item} {flag.name} {entry.name}"), subject.name, *value)
+            yield Spot("flag_name", "flag_name"), (_quoted(f"{item} {flag.name} {entry.name}"), subject.name, *value)
 
 
 def _exchanges(subject: CratePoint, scope: CrateScope) -> Iterator[Row]:
     """Yield a row for each way in which the point is read or written."""
     for kind, run, needs in _ways(subject, scope):
         arguments = [token for pair in needs for token in bracketed(_arguments(*pair))]
-        yield Spot(f"{kind}_by_{run}", 0, run, kind), row_of(subject, bracketed(("wire", *arguments)))
+        yield Spot(kind, run), row_of(subject, bracketed(("wire", *arguments)))
 
 
 def _ways(subject: CratePoint, scope: CrateScope) -> Iterator[Way]:

@@ -41,20 +41,20 @@ class Snippet:
 
 
 class Table(NamedTuple):
-    """A table of the conformance program: its function, the function of the runner that it calls, and its rows.
+    """A table of the conformance program: its function, the runner's function that it calls, its rows, and their kind.
 
-    `kind` is the kind of the vectors of whole exchanges that it answers; empty for any other table.
+    It answers the vectors of that kind.
     """
 
     name: str
     run: str
     rows: Sequence[str]
-    kind: str = ""
+    kind: str
 
     @property
     def text(self) -> str:
         """The rows, each with its semicolon."""
-        return f"{END.join(self.rows)}{END}" if self.rows else ""
+        return f"{END.join(self.rows)}{END}"
 
 
 def row_text(row: Tokens) -> str:
@@ -73,19 +73,19 @@ class RustFamily:
 
     `context` is the context of the template `<family>.rs.j2`. `traits` are the lines by which a point implements the
     traits of its bus. `identifiers` are those of the family's own items. The conformance program gets further `ways` to
-    read and write a point, tables of points and frames that only this family has, and `refusals`, the kind of vectors
-    for the codes of refusals. The first page of a crate imports these `names`; `telegram` is the telegram to which it
-    listens, as a type, and the lines that use points of it. The crate passes these `transports` on, features of the
-    runtime; its first program talks over the `line` of a device (none: it has none), and imports `line_names` of the
-    runtime. `client_parameter` is the name, the default and the trait of a parameter of its clients
-    beside the transport.
+    read and write a point, further `kinds` of vectors of its points, tables of frames, and `refusals`, the kind of
+    vectors for the codes of refusals. The first page of a crate imports these `names`; `telegram` is the telegram to
+    which it listens, as a type, and the lines that use points of it. The crate passes these `transports` on, features
+    of the runtime; its first program talks over the `line` of a device (none: it has none), and imports `line_names` of
+    the runtime. `client_parameter` is the name, the default and the trait of a parameter of its clients beside the
+    transport.
     """
 
     context: Callable[[Device], Mapping[str, object]]
     traits: Callable[[CratePoint, CrateScope], Iterable[str]] = nothing
     identifiers: Callable[[Device], Iterable[Names]] = nothing
     ways: Callable[[CratePoint, CrateScope], Iterable[Way]] = nothing
-    tables_of_points: Callable[[CrateScope], Iterable[Table]] = nothing
+    kinds: Callable[[CratePoint, CrateScope], Iterable[str]] = nothing
     tables_of_frames: Callable[[Device], Iterable[Table]] = nothing
     refusals: str = "code"
     names: tuple[str, ...] = ()

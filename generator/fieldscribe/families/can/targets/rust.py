@@ -7,9 +7,8 @@ from fieldscribe.families.can.frames import carriers, frame_count, request_and_a
 from fieldscribe.model import Device, Message, Role, Telegram
 from fieldscribe.targets.identifiers import Names, Owner
 from fieldscribe.targets.rust.conformance import item_row
-from fieldscribe.targets.rust.conformance_rows import row_of
 from fieldscribe.targets.rust.documentation import sentence
-from fieldscribe.targets.rust.families import RustFamily, Snippet, Table, code_names, constants, row_text
+from fieldscribe.targets.rust.families import RustFamily, Snippet, Table, code_names, constants
 from fieldscribe.targets.rust.layout import Item, Lines, array, assignment, binding
 from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name
 from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
@@ -139,18 +138,12 @@ def _telegram(telegram: Telegram, message: Message) -> dict[str, object]:
     }
 
 
-def tables_of_points(scope: CrateScope) -> Iterator[Table]:
-    """Yield the table of points that come in frames of a telegram."""
-    received = [
-        subject for subject in scope.subjects if subject.point.form != "text" and _received(subject, scope) is not None
-    ]
-    if received:
-        yield Table(
-            "can_telegram", "can_telegram", tuple(row_text(row_of(subject, ("(frames)",))) for subject in received)
-        )
-    signals = [each for each in scope.subjects if each.point.place.bit is not None]
-    if signals:
-        yield Table("can_signal", "can_signal", tuple(row_text(row_of(each, ("(frames)",))) for each in signals))
+def kinds(subject: CratePoint, scope: CrateScope) -> Iterator[str]:
+    """Yield the kinds of vectors of a point that comes in frames."""
+    if subject.point.form != "text" and _received(subject, scope) is not None:
+        yield "can_telegram"
+    if subject.point.place.bit is not None:
+        yield "can_signal"
 
 
 def telegram_of(scope: CrateScope) -> tuple[str, Snippet]:
@@ -182,15 +175,15 @@ def tables_of_frames(device: Device) -> Iterator[Table]:
     names = [telegram.name for telegram in _in_frames(device)]
     if names:
         rows = tuple(item_row(name, "telegrams", "telegram", type_name(name)) for name in names)
-        yield Table("can_taken", "can_taken", rows)
-        yield Table("can_carrier", "can_carrier", rows)
+        yield Table("can_taken", "can_taken", rows, "can_taken")
+        yield Table("can_carrier", "can_carrier", rows, "can_carrier")
 
 
 IN_RUST = RustFamily(
     context,
     traits,
     identifiers,
-    tables_of_points=tables_of_points,
+    kinds=kinds,
     tables_of_frames=tables_of_frames,
     refusals="constant",
     names=("Frame",),
