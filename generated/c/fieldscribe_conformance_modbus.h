@@ -1122,10 +1122,10 @@ static void fieldscribe_run_block(fieldscribe_vector *v)
 
 static bool fieldscribe_run_frame(fieldscribe_vector *v)
 {
-    if (fieldscribe_asks(v, "build") || fieldscribe_asks(v, "printed_build")) {
+    if (fieldscribe_asks(v, "build")) {
         fieldscribe_run_build(v);
         fieldscribe_sends_nothing(v);
-    } else if (fieldscribe_asks(v, "reply") || fieldscribe_asks(v, "printed_reply")) {
+    } else if (fieldscribe_asks(v, "reply")) {
         fieldscribe_run_reply(v);
     } else if (fieldscribe_asks(v, "block")) {
         fieldscribe_run_block(v);

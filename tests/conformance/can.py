@@ -18,7 +18,7 @@ def can_build(package: Package, vector: Vector) -> bool:
     return bool(status == vector["status"] and (not sent or sent == (vector["id"], vector["bytes"])))
 
 
-def can_parse(package: Package, vector: Vector) -> bool:
+def can_reply(package: Package, vector: Vector) -> bool:
     """What a frame carries."""
     frame = package.can.Frame(vector["id"], vector["bytes"])
     message = package.device.PROFILE.message(vector["message"])
@@ -67,7 +67,7 @@ def can_signal(package: Package, vector: Vector) -> bool:
 
 CHECKS: Mapping[str, Check] = {
     "can_build": can_build,
-    "can_parse": can_parse,
+    "can_reply": can_reply,
     "can_signal": can_signal,
     "can_taken": can_taken,
     "can_telegram": can_telegram,

@@ -75,8 +75,6 @@ def base(package: Package, vector: Vector) -> bool:
 CHECKS: Mapping[str, Check] = {
     "build": build,
     "reply": reply,
-    "printed_build": build,
-    "printed_reply": reply,
     "step": step,
     "base": base,
     "base_behind": base,

@@ -49,7 +49,5 @@ CHECKS: Mapping[str, Check] = {
     "uss_build": uss_build,
     "uss_broadcast": uss_broadcast,
     "uss_reply": uss_reply,
-    "uss_printed_build": uss_build,
-    "uss_printed_reply": uss_reply,
 }
 """The checks of this theme by the kind of vector."""

@@ -58,7 +58,7 @@ def test_commands_at_one_address_are_told_apart_by_their_values(sent: str, name:
 def test_messages_of_a_makers_protocol(device: Device) -> None:
     """A frame is the message of the unit that was asked for, or it is damaged, or it is another's."""
     judged = set()
-    for one in vectors(device, "can_parse"):
+    for one in vectors(device, "can_reply"):
         [heard] = decode(device, {}, [f"{one['id']:X}#{one['bytes'].hex()}"], chosen())
         if one["status"] in ("wrong_id", "wrong_unit") and not heard.faults:
             assert heard.kind == "other" or heard.unit != one["unit"], (one, heard)

@@ -13,9 +13,10 @@ from fieldscribe.families.modbus.exchange import Request, build, parse_reply, pa
 from fieldscribe.families.modbus.frames import Flaw, crc16, frame
 from fieldscribe.families.modbus.reading import plan_blocks
 from fieldscribe.families.modbus.remarks import exception_text, flaw_text
-from fieldscribe.families.modbus.targets.vectors import ModbusWire
+from fieldscribe.families.modbus.targets.wire import ModbusWire
 from fieldscribe.model import Bus, Code, FamilyFacts, Point, Variant
 from fieldscribe.resources import templates_dir
+from fieldscribe.targets.vectors.lines import Lines
 from hypothesis import given
 from hypothesis import strategies as st
 from pymodbus.framer import FramerRTU, FramerSocket
@@ -467,7 +468,7 @@ def test_vectors_exchange_what_stands_in_a_row(  # noqa: PLR0917 - the columns o
     framing: str, function: int, addresses: tuple[int, ...], words: tuple[int, ...], sent: str, received: str
 ) -> None:
     """By hand, from the protocol: the lowest address travels, and a single write is answered by itself."""
-    script = ModbusWire(sample_device(), framing).script(function, addresses, words)
+    script = ModbusWire(Lines(), sample_device(), framing).script(function, addresses, words)
     whole = [(text + tail(text)) if framing == "rtu" else text for text in (f"{sent} ", f"{received} ")]
     assert script == [(bytes.fromhex(whole[0]), bytes.fromhex(whole[1]))]
 
@@ -480,7 +481,7 @@ def test_vectors_exchange_what_stands_in_a_row(  # noqa: PLR0917 - the columns o
 def test_vectors_exchange_nothing_that_one_request_cannot_carry(
     function: int, addresses: tuple[int, ...], words: tuple[int, ...]
 ) -> None:
-    assert ModbusWire(sample_device(), "rtu").script(function, addresses, words) is None
+    assert ModbusWire(Lines(), sample_device(), "rtu").script(function, addresses, words) is None
 
 
 def test_a_bus_without_facts_pads_nothing() -> None:

@@ -598,7 +598,7 @@ static bool fieldscribe_run_frame(fieldscribe_vector *v)
         fieldscribe_run_can_taken(v);
     } else if (fieldscribe_asks(v, "can_build")) {
         fieldscribe_run_can_build(v);
-    } else if (fieldscribe_asks(v, "can_parse")) {
+    } else if (fieldscribe_asks(v, "can_reply")) {
         fieldscribe_run_can_parse(v);
     } else if (fieldscribe_asks(v, "can_signal")) {
         v->answered = false; /* until the point answers too */

@@ -514,11 +514,11 @@ static bool fieldscribe_run_frame(fieldscribe_vector *v)
         fieldscribe_run_function(v);
     } else if (fieldscribe_asks(v, "limit")) {
         fieldscribe_run_limit(v);
-    } else if (fieldscribe_asks(v, "uss_build") || fieldscribe_asks(v, "uss_printed_build")) {
+    } else if (fieldscribe_asks(v, "uss_build")) {
         fieldscribe_run_uss_build(v);
     } else if (fieldscribe_asks(v, "uss_broadcast")) {
         fieldscribe_run_uss_broadcast(v);
-    } else if (fieldscribe_asks(v, "uss_reply") || fieldscribe_asks(v, "uss_printed_reply")) {
+    } else if (fieldscribe_asks(v, "uss_reply")) {
         fieldscribe_run_uss_reply(v);
     } else {
         return false;

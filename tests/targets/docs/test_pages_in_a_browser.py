@@ -209,7 +209,7 @@ def _jobs(device: str) -> Iterator[Job]:
                 else None
             )
             yield Job(frames, status, exception=code, settings=_settings(vector))
-        elif kind == "can_parse" and status != "wrong_id":
+        elif kind == "can_reply" and status != "wrong_id":
             yield Job([f"{vector['id']:03X}#{(vector['bytes'] or b'').hex()}"], "parsed" if status == "ok" else status)
         elif kind == "can_telegram" and status == "ok":
             frames = [f"{identifier:03X}#{data.hex()}" for identifier, data in vector["frames"]]

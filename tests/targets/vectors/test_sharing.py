@@ -11,7 +11,6 @@ from fieldscribe.code_view import for_code
 from fieldscribe.model import Device, Digits, Enum, Fixed, Flag, Interner, Place, Shape, Special, Text
 from fieldscribe.targets.vectors.collection import SharedVectors, collect
 from fieldscribe.targets.vectors.samples import PointEncodings
-from fieldscribe.targets.vectors.scaled import Scaled
 from support.described import KITCHENS, SHIPPED, made, shipped
 from support.models import HERTZ, VOLT, allowed, entry, point, sample_device, scaled, titles, value_of
 
@@ -76,7 +75,6 @@ def forgetting(monkeypatch: pytest.MonkeyPatch, owner: type, method: str, memory
 def test_each_point_by_itself_has_the_same_vectors(device: Device, monkeypatch: pytest.MonkeyPatch) -> None:
     forgetting(monkeypatch, PointEncodings, "of", "_known")
     forgetting(monkeypatch, SharedVectors, "beside_limits", "_beside_limits")
-    forgetting(monkeypatch, Scaled, "_of", "_conversions")
     assert text_of(device) == SOUND[device.id]
 
 

@@ -24,7 +24,7 @@ def frames(lines: Lines, device: Device) -> None:
             lines.add("strike", device.bus.units[0], tone, strike(device.bus.units[0], tone))
 
 
-def wires(device: Device) -> tuple[()]:
+def wires(lines: Lines, device: Device) -> tuple[()]:
     """Points do not travel: a bell only rings."""
-    del device
+    del lines, device
     return ()

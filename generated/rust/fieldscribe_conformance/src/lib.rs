@@ -46,11 +46,6 @@ pub type Outcome = Result<(), String>;
 /// A function over the points of a device: which of them runs a vector, none if it is not in the table.
 #[macro_export]
 macro_rules! table {
-    ($kind:ident $run:ident {}) => {
-        fn $kind(_: &$crate::Vector) -> Option<$crate::Outcome> {
-            None
-        }
-    };
     ($kind:ident $run:ident { $($item:literal $point:ident $with:tt;)+ }) => {
         fn $kind(vector: &$crate::Vector) -> Option<$crate::Outcome> {
             Some(match vector.subject().as_str() {

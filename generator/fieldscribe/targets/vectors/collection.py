@@ -8,14 +8,16 @@ from fieldscribe.arithmetic.texts import epoch_in_unix
 from fieldscribe.conditions import Condition
 from fieldscribe.families import family
 from fieldscribe.model import Bus, Device, Point, item_of
-from fieldscribe.targets.vectors.exchanges import Exchanges, Wire
+from fieldscribe.targets.vectors.decimals import digits, displayed
+from fieldscribe.targets.vectors.exchanges import Exchanges
 from fieldscribe.targets.vectors.floats import floats
-from fieldscribe.targets.vectors.integers import bits, fixed, flags, names, specials, whole, words
+from fieldscribe.targets.vectors.frames import Wire
 from fieldscribe.targets.vectors.lines import Lines
+from fieldscribe.targets.vectors.numbers import numbers
 from fieldscribe.targets.vectors.oracle import Oracle, outer_bounds
 from fieldscribe.targets.vectors.samples import PointEncoding, PointEncodings
-from fieldscribe.targets.vectors.scaled import Scaled
-from fieldscribe.targets.vectors.texts import digits, displayed, text
+from fieldscribe.targets.vectors.texts import text
+from fieldscribe.targets.vectors.words import bits, fixed, flags, names, specials, words
 from fieldscribe.text import line
 
 
@@ -31,9 +33,9 @@ class OfFamily:
     def frames(self, lines: Lines, device: Device) -> None:
         """Add the vectors of the frames of a device."""
 
-    def wires(self, device: Device) -> Sequence[Wire]:
+    def wires(self, lines: Lines, device: Device) -> Sequence[Wire]:
         """Return the ways in which points travel, the usual way first."""
-        del device
+        del lines, device
         return ()
 
 
@@ -42,7 +44,6 @@ class SharedVectors:
 
     def __init__(self, lines: Lines, oracle: Oracle, encodings: PointEncodings) -> None:
         self._lines, self._oracle, self._encodings = lines, oracle, encodings
-        self._scaled = Scaled(oracle)
         self._within_limits: dict[PointEncoding, Lines] = {}
         self._beside_limits: dict[Hashable, Lines] = {}
 
@@ -59,16 +60,14 @@ class SharedVectors:
 
     def _convert(self, lines: Lines, encoding: PointEncoding, *, deep: bool) -> None:
         shape, oracle = encoding.shape, self._oracle
-        if shape.form == "scaled":
-            self._scaled.add(lines, encoding, deep=deep)
-        elif shape.form == "float":
+        if shape.form == "float":
             floats(lines, encoding, deep=deep)
         elif shape.form == "text":
             text(lines, shape)
         elif shape.form == "digits":
             digits(lines, shape)
         else:
-            whole(lines, oracle, encoding, deep=deep)
+            numbers(lines, oracle, encoding, deep=deep)
         if shape.display is not None:
             displayed(lines, oracle, encoding, deep=deep)
         names(lines, shape, deep=deep)
@@ -98,10 +97,10 @@ def collect(device: Device) -> Lines:
     encodings = PointEncodings()
     shared = SharedVectors(lines, oracle, encodings)
     points = {point.item: point for point in sorted(device.points, key=attrgetter("rank")) if point.generated}
-    exchanges = [Exchanges(lines, oracle, encodings, points, wire) for wire in part.wires(device)]
+    exchanges = [Exchanges(lines, oracle, encodings, points, wire) for wire in part.wires(lines, device)]
     usual, others = exchanges[:1], exchanges[1:]
     for exchange in usual:
-        exchange.wire.opens(lines)
+        exchange.wire.opens()
     for axis, choices in device.variants.items():
         lines.add("variant", axis, choices)
     _identifications(lines, device)
@@ -118,7 +117,7 @@ def collect(device: Device) -> Lines:
         for exchange in usual:
             exchange.of(point, encoding)
     for exchange in others:
-        exchange.wire.opens(lines)
+        exchange.wire.opens()
         exchange.of_each_space()
     for point in device.points:
         if point.raw_only and point.address is not None:

@@ -1,12 +1,12 @@
 """Vectors of dates and times in parts: ends of months and years, leap years, invalid dates, and dates without room."""
 
-from collections.abc import Iterator, Sequence
+import datetime
+from collections.abc import Sequence
 
 from fieldscribe.model import DatePart, Shape, Text
 from fieldscribe.targets.vectors.lines import Lines
 
 _FIELDS = ("year", "month", "day", "hour", "minute", "second", "millisecond")
-_MOST_OF_TIME = (23, 59, 59, 999)
 _ZEROS = (0,) * len(_FIELDS)
 _DATES = (
     *((2000, 2, 29, 0, 0, 0, 0), (2024, 2, 29, 23, 59, 59, 999), (2023, 12, 31, 12, 30, 45, 250)),
@@ -60,27 +60,10 @@ def _held(layout: Text, numbers: Sequence[int]) -> dict[str, int]:
     named = dict(zip(_FIELDS, numbers, strict=True))
     if not _has(layout, "second"):
         named["millisecond"] += 1000 * named["second"]
-    named["weekday"] = _days_before(*numbers[:3])
     return {
-        part.name: _weekday(named["weekday"], part.base) if part.name == "weekday" else named[part.name] - part.base
+        part.name: _weekday(numbers, part.base) if part.name == "weekday" else named[part.name] - part.base
         for part in layout.parts
     }
-
-
-def _weekday(days: int, sunday: int) -> int:
-    """Return the weekday a number of days after 0001-01-01 (a Monday), in a count with this Sunday."""
-    return {0: (days + 1) % 7, 1: (days + 1) % 7 + 1, 6: days % 7, 7: days % 7 + 1}[sunday]
-
-
-def _days_before(year: int, month: int, day: int) -> int:
-    past = year - 1
-    months = sum(_days_in(year, number) for number in range(1, min(month, 13)))
-    return 365 * past + past // 4 - past // 100 + past // 400 + months + day - 1
-
-
-def _days_in(year: int, month: int) -> int:
-    leap = year % 4 == 0 and (year % 100 != 0 or year % 400 == 0)
-    return 28 + leap if month == 2 else 30 if month in (4, 6, 9, 11) else 31
 
 
 def _has(layout: Text, name: str) -> bool:
@@ -139,13 +122,23 @@ def _decoded(layout: Text, held: dict[str, int]) -> list[int] | None:
 
 
 def _is_real(layout: Text, numbers: Sequence[int]) -> bool:
-    return all(_faults(layout, numbers))
+    """Return True if the date and the time of a layout exist."""
+    *_, hour, minute, second, millisecond = numbers
+    try:
+        if _has(layout, "day"):
+            datetime.date(*numbers[:3])
+        if _has(layout, "hour"):
+            datetime.time(hour, minute, second, 1000 * millisecond)
+    except ValueError:
+        return False
+    return True
 
 
-def _faults(layout: Text, numbers: Sequence[int]) -> Iterator[bool]:
-    """Yield whether the date is valid, then whether the time is."""
-    year, month, day = numbers[:3]
-    if _has(layout, "day"):
-        yield 1 <= year <= 9999 and 1 <= month <= 12 and 1 <= day <= _days_in(year, month)
-    if _has(layout, "hour"):
-        yield all(number <= most for number, most in zip(numbers[3:], _MOST_OF_TIME, strict=True))
+def _weekday(numbers: Sequence[int], sunday: int) -> int:
+    """Return the weekday of a date in a count with this Sunday; that of no date is any."""
+    try:
+        after_sunday = datetime.date(*numbers[:3]).isoweekday() % 7
+    except ValueError:
+        after_sunday = 0
+    first = sunday % 6  # the weekdays count from 0 or from 1
+    return (after_sunday + sunday - first) % 7 + first

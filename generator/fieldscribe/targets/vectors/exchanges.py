@@ -1,36 +1,18 @@
 """Vectors of whole exchanges: the requests that read or write a point, the answers, and the result."""
 
-from collections.abc import Iterable, Iterator, Mapping
-from typing import NamedTuple, Protocol
+from collections.abc import Mapping
+from typing import NamedTuple
 
 from fieldscribe.arithmetic.words import joined
-from fieldscribe.model import Code, Point
+from fieldscribe.model import Point
 from fieldscribe.targets.vectors import samples
 from fieldscribe.targets.vectors.dates import typical_date
-from fieldscribe.targets.vectors.integers import with_fixed, words_of
+from fieldscribe.targets.vectors.frames import Script, Wire
 from fieldscribe.targets.vectors.lines import Lines, script_text
 from fieldscribe.targets.vectors.oracle import Oracle, admit, as_raw, bits_of, code_of, outer_bounds
 from fieldscribe.targets.vectors.samples import PointEncoding, PointEncodings, ascending
-from fieldscribe.targets.vectors.texts import words_of_text
-
-Script = list[tuple[bytes, bytes]]
-"""The requests of an exchange with their answers."""
-
-
-class Wire(Protocol):
-    """A way in which a family reads and writes the words of a point on its bus."""
-
-    def opens(self, lines: Lines) -> None:
-        """Set what all exchanges share: the unit and the settings of the line."""
-
-    def reads(self, point: Point, words: tuple[int, ...]) -> Script | None:
-        """Return the exchange that reads these words, in ascending order of address; None if no request can."""
-
-    def writes(self, point: Point, words: tuple[int, ...], *, keep: bool) -> Script | None:
-        """Return the exchange that writes these words; with `keep` permanently, if another request does that."""
-
-    def bad_answers(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
-        """Yield the exchange with bad answers, each with the status that results."""
+from fieldscribe.targets.vectors.texts import letters, words_of_text
+from fieldscribe.targets.vectors.words import words_of
 
 
 class _Typical(NamedTuple):
@@ -155,29 +137,11 @@ class Exchanges:
             self.lines.add(kind, bad, status, None if kind == "read" else raw)
 
 
-def with_flipped(data: bytes, place: int, bits: int = 1) -> bytes:
-    """Return the bytes with these bits of one byte flipped."""
-    return data[:place] + bytes((data[place] ^ bits,)) + data[place + 1 :]
-
-
-def single_bit_errors(data: bytes) -> Iterator[bytes]:
-    """Yield the bytes with each single bit flipped."""
-    for bit in range(8 * len(data)):
-        yield with_flipped(data, bit >> 3, 1 << (bit & 7))
-
-
-def codes(lines: Lines, kind: str, what: str, numbers: Iterable[Code]) -> None:
-    """Add vectors for named numbers of the protocol: a `code` that is received, or a `constant` for callers."""
-    for code in numbers:
-        lines.add(kind, what, code.number, code.name)
-
-
 def typical(oracle: Oracle, encoding: PointEncoding, settings: dict[str, int]) -> int | None:
     """Return a typical raw number to write: two thirds up the range, odd if possible; None if it has no limits."""
     shape = encoding.shape
     if (text := shape.text) is not None:
-        characters = bytes(0x41 + place % 26 for place in range(text.characters))
-        return joined(typical_date(text) if text.parts else words_of_text(text, characters))
+        return joined(typical_date(text) if text.parts else words_of_text(text, letters(text)))
     if shape.digits is not None:
         known = sorted(entry.raw for entry in shape.digits.enum.entries if entry.raw < 10)
         digits = [known[place % len(known)] for place in range(shape.digits.count)]
@@ -191,7 +155,7 @@ def typical(oracle: Oracle, encoding: PointEncoding, settings: dict[str, int]) -
     low, high = limits[0] if len(limits) == 1 else max(limits, key=lambda limit: limit[1] - limit[0])
     upper = high - (high - low) // 3
     for raw in (upper | 1, upper, *(raw for interval in limits for raw in interval)):
-        put = with_fixed(encoding, raw)
+        put = encoding.with_fixed(raw)
         if admit(shape, put, limits) == "ok" and code_of(shape, put) is None:
             return put
     return None

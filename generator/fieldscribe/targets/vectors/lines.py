@@ -11,7 +11,7 @@ question mark. `only` names the languages that have this in code and not only in
 
 from __future__ import annotations
 
-from collections import Counter, defaultdict
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from operator import call
 from struct import Struct
@@ -29,7 +29,7 @@ SETS = {
     "point": "point:word",
     "with": "with:pairs?",
     "request": _REQUEST,
-    "message": "message:word",
+    "message": "message:word unit:int address:int raw:int",
     "telegram": "telegram:word unit:int",
     "task": "unit:int task:int parameter:int index:int width:int value:int words:ints?",
 }
@@ -110,8 +110,6 @@ FORMAT = 2
 ABSENT = "-"
 NO_BROADCAST = 0xFFFF
 """The unit number for devices without broadcast: larger than any other."""
-_MANY = 500
-"""The number of new lines that are joined at once: one long string takes less memory."""
 _BINARY64 = Struct(">d").pack
 
 
@@ -173,7 +171,8 @@ class Row:
 
     def __init__(self, name: str, row: str) -> None:
         forms = dict([part.split(":") for part in row.split()])
-        self.name, self.only = name, forms.pop("only", "")
+        self.name, self.in_head = name, row.replace("?", "").split()
+        self.only = forms.pop("only", "")
         self.fields = {key: form.removesuffix("?") for key, form in forms.items()}
         self._needed = [(place, key) for place, key in enumerate(forms) if not forms[key].endswith("?")]
         self._writers: dict[tuple[type, ...], Sequence[Callable[[Any], str]]] = {}
@@ -208,25 +207,28 @@ _SETS = {name: Row(name, kind) for name, kind in SETS.items()}
 _LATER_SETS = {name: tuple(SETS)[place + 1 :] for place, name in enumerate(SETS)}
 
 
+def _put(sets: dict[str, str], name: str, line: str) -> None:
+    """Put the line of a set in place of those that it ends: its own, and those after it in the table."""
+    sets[name] = line
+    for later in _LATER_SETS[name]:
+        sets.pop(later, None)
+
+
 class Lines:
     """Collects vectors in order, and counts them; `kinds` are those that only the device's family has."""
 
     def __init__(self, kinds: Mapping[str, str] = MappingProxyType({})) -> None:
         self._rows = _ROWS | {name: Row(name, kind) for name, kind in kinds.items()}
-        self._numbers: defaultdict[str, int] = defaultdict(int)
+        self._counts: Counter[str] = Counter()
         self._in_force: dict[str, str] = {}
         self._wanted: dict[str, str] = {}
         self._lines: list[str] = []
-        self._chunks: list[str] = []
-        self._included: Counter[Lines] = Counter()
-        self._has_bases = False
 
     def set(self, name: str, *values: object) -> None:
         """Set context for the following vectors; its line is written only if it changed and a vector follows."""
         line = _SETS[name].line(values)
-        self._has_bases = self._has_bases or name == "bases"
-        if self._wanted or line != self._in_force.get(name, name):
-            self._wanted[name] = line
+        if self._wanted or line != self._in_force.get(name):
+            _put(self._wanted, name, line)
 
     def add(self, kind: str, *values: object) -> None:
         """Add a vector: the fields of its kind in their order."""
@@ -236,12 +238,22 @@ class Lines:
         """Add vectors of one kind."""
         self.add_written(kind, [*map(self._rows[kind].line, rows)])
 
+    def add_answers(
+        self, kind: str, answer: Callable[[Any], str], asked: Iterable[Any], written: Callable[[Any], str] = str
+    ) -> None:
+        """Add a vector of what is asked, each once, with its answer: `written` fields. None for an empty answer."""
+        fields = {written(each): each for each in asked}
+        self.add_written(
+            kind, [f"{kind}\t{text}\t{result}" for text, each in fields.items() if (result := answer(each))]
+        )
+
     def add_written(self, kind: str, lines: Sequence[str]) -> None:
         """Add vectors of one kind whose lines are finished."""
-        if self._wanted and lines:
-            self._write_sets()
-        self._lines += lines
-        self._numbers[kind] += len(lines)
+        if lines:
+            if self._wanted:
+                self._write_sets()
+            self._lines += lines
+            self._counts[kind] += len(lines)
 
     def add_limits(self, **numbers: int) -> None:
         """Add a vector for each constant of the bus."""
@@ -255,55 +267,26 @@ class Lines:
 
     def include(self, part: Lines) -> None:
         """Add all vectors of a finished part, which may override only inner contexts."""
-        if joined := part._joined():
+        if part._lines:
             if self._wanted:
                 self._write_sets()
-            self._lines.append(joined)
-            self._included[part] += 1
-        for name in part._in_force:
-            for later in _LATER_SETS[name]:
-                self._in_force.pop(later, None)
-        self._in_force |= part._in_force
-        self._wanted |= part._wanted
-        if len(self._lines) > _MANY:
-            self._joined()
-
-    def _joined(self) -> str:
-        """Join the lines so far, and return the last chunk of them; for a part, all its lines."""
-        if self._lines:
-            self._chunks.append("\n".join(self._lines))
-            self._lines.clear()
-        return self._chunks[-1] if self._chunks else ""
+            self._lines += part._lines
+            for kind, number in part._counts.items():
+                self._counts[kind] += number
+            self._in_force |= part._in_force
 
     def _write_sets(self) -> None:
         """Write the sets that changed; each ends the sets after it in the table."""
-        for name in self._wanted if len(self._wanted) == 1 else [name for name in SETS if name in self._wanted]:
-            line = self._wanted[name]
-            if line != self._in_force.get(name, name):
+        for name, line in self._wanted.items():
+            if line != self._in_force.get(name):
                 self._lines.append(line)
-                self._in_force[name] = line
-                for later in _LATER_SETS[name]:
-                    self._in_force.pop(later, None)
+                _put(self._in_force, name, line)
         self._wanted.clear()
 
     def text(self, device: str, version: str, digest: str) -> str:
         """Return the whole file, with a head that describes its kinds and sets."""
-        self._joined()
-        return "\n".join([*self._head(device, version, digest), *self._chunks, ""])
-
-    def _head(self, device: str, version: str, digest: str) -> Iterator[str]:
-        counts = Counter(self._numbers)
-        for part, times in self._included.items():
-            for kind, number in part._numbers.items():
-                counts[kind] += number * times
-        yield f"vectors\t{FORMAT}\t{device}\t{version}\t{digest}"
-        for name, row in _SETS.items():
-            if name == "bases" and not self._has_bases:
-                continue
-            yield "\t".join(("set", name, *(f"{key}:{form}" for key, form in row.fields.items())))
-        for name, row in self._rows.items():
-            if number := counts[name]:
-                only = (f"only:{row.only}",) if row.only else ()
-                yield "\t".join(
-                    ("kind", name, str(number), *only, *(f"{key}:{form}" for key, form in row.fields.items()))
-                )
+        head = [f"vectors\t{FORMAT}\t{device}\t{version}\t{digest}"]
+        head += ["\t".join(("set", row.name, *row.in_head)) for row in _SETS.values()]
+        rows = [row for name, row in self._rows.items() if self._counts[name]]
+        head += ["\t".join(("kind", row.name, str(self._counts[row.name]), *row.in_head)) for row in rows]
+        return "\n".join([*head, *self._lines, ""])

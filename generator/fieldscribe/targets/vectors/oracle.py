@@ -142,6 +142,10 @@ class Ratio:
         return abs(self.numerator(raw)) <= EXACT and self.denominator <= EXACT
 
 
+WHOLE = Ratio(1, 1, 0, 1)
+"""The rule of a number without a scale: its value is the raw number."""
+
+
 def _number(factor: Factor, numbers: Numbers) -> Fraction | int:
     """The number of a factor, before its power is applied."""
     return factor.slope * numbers[factor.point] + factor.intercept

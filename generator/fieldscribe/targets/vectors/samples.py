@@ -10,7 +10,7 @@ from functools import lru_cache
 from math import gcd, inf, nan
 
 from fieldscribe.model import Allowed, Bound, Factor, Interval, Limit, Point, Shape
-from fieldscribe.targets.vectors.oracle import Oracle, Ratio, bits_of, outer_bounds
+from fieldscribe.targets.vectors.oracle import Oracle, Ratio, as_raw, bits_of, outer_bounds
 
 MANY = 3
 """The number of intervals of a list that are tried for every point."""
@@ -35,6 +35,13 @@ class PointEncoding:
         """The points whose raw numbers encoding, decoding or checking needs, in a fixed order."""
         scale, limits = self.shape.scale_arguments, self.allowed.arguments
         return tuple(dict.fromkeys((*scale, *limits))) if scale or limits else ()
+
+    def with_fixed(self, raw: int) -> int:
+        """Return a raw number with the constant bits set; unchanged if the type cannot hold it."""
+        shape, fixed = self.shape, self.shape.fixed
+        if fixed is None or self.bits is not None or not shape.least <= raw <= shape.greatest:
+            return raw
+        return as_raw(shape, raw & ~fixed.mask | fixed.bits)
 
 
 class PointEncodings:
@@ -117,21 +124,29 @@ def limits_to_try(limits: Limits) -> Limits:
     return limits if len(limits) <= MANY else (limits[0], limits[-1])
 
 
-def raws_to_decode(shape: Shape, limits: Limits, *, deep: bool) -> list[int]:
+def raws_to_decode(encoding: PointEncoding, limits: Limits, *, deep: bool) -> Iterable[int]:
     """Return raw numbers to decode: limits; if `deep`, also special codes, the ends of the type and around the sign."""
-    if not deep:
-        return _held(shape, (limits[0][0], limits[-1][1]))
-    sign = (-1, 0) if shape.least < 0 else ()
-    ends = (raw for interval in limits for raw in interval)
-    return _held(shape, dict.fromkeys((*ends, *codes(shape), shape.least, shape.greatest, *sign)))
+    shape = encoding.shape
+    ends = (raw for interval in limits for raw in interval) if deep else (limits[0][0], limits[-1][1])
+    more = (*codes(shape), shape.least, shape.greatest, -1, 0) if deep else ()
+    return _named(encoding, _held(shape, (*ends, *more)), deep=deep)
 
 
-def raws_to_check(shape: Shape, limits: Limits, *, deep: bool) -> list[int]:
+def raws_to_check(encoding: PointEncoding, limits: Limits, *, deep: bool) -> Iterable[int]:
     """Return raw numbers to check: limits and one beyond; if `deep`, also special codes and the ends of the type."""
-    if deep:
-        return _held(shape, dict.fromkeys((*edges(limits), *codes(shape), shape.least, shape.greatest)))
-    ends = (raw for interval in limits for raw in interval)
-    return _held(shape, dict.fromkeys((*edges(limits_to_try(limits)), *ends)))
+    shape = encoding.shape
+    ends = edges(limits) if deep else (*edges(limits_to_try(limits)), *(raw for ends in limits for raw in ends))
+    more = (*codes(shape), shape.least, shape.greatest) if deep else ()
+    return _named(encoding, _held(shape, (*ends, *more)), deep=deep)
+
+
+def _named(encoding: PointEncoding, raws: list[int], *, deep: bool) -> list[int]:
+    """Return raw numbers, also with the constant bits set, numbers of the enum (if deep, all), and each flag alone."""
+    shape = encoding.shape
+    fixed = () if shape.fixed is None else map(encoding.with_fixed, raws)
+    entries = () if shape.enum is None else shape.enum.entries if deep else shape.enum.entries[-1:]
+    flags = (as_raw(shape, (1 << flag.width) - 1 << flag.low) for flag in shape.flags)
+    return [*raws, *fixed, *(entry.raw for entry in entries), *flags]
 
 
 def codes(shape: Shape) -> list[int]:
@@ -183,9 +198,14 @@ def halves(ratio: Ratio, limits: Limits) -> list[float]:
     return list(values)
 
 
+def raws_telling_division(shape: Shape, ratio: Ratio) -> list[int]:
+    """Return the lowest raw number, if any, that reveals a multiplication by the reciprocal instead of a division."""
+    raw = _raw_telling_division(ratio)
+    return [] if raw is None else _held(shape, (raw,))
+
+
 @lru_cache(maxsize=4096)
-def raw_telling_division(ratio: Ratio) -> int | None:
-    """Return the lowest raw number that reveals a multiplication by the reciprocal instead of a division."""
+def _raw_telling_division(ratio: Ratio) -> int | None:
     under = ratio.denominator
     numerators = ((raw, ratio.numerator(raw)) for raw in range(1, 200))
     return next((raw for raw, over in numerators if over * (1 / under) != over / under), None)

@@ -103,92 +103,6 @@ table! { decode decode {
     "register_order" RegisterOrder ();
 } }
 
-table! { encode encode {
-    "demand_period" DemandPeriod ();
-    "pulse_1_width" Pulse1Width ();
-    "network_node" NetworkNode ();
-    "password" Password ();
-    "register_order" RegisterOrder ();
-} }
-
-table! { decode_count decode_count {
-} }
-
-table! { decode_plain decode_plain {
-    "system_type" SystemType ();
-    "password_lock" PasswordLock ();
-    "network_parity_and_stop_bits" NetworkParityAndStopBits ();
-    "pulse_1_energy" Pulse1Energy ();
-    "network_baud_rate" NetworkBaudRate ();
-    "pulse_1_energy_type" Pulse1EnergyType ();
-    "serial_number" SerialNumber ();
-} }
-
-table! { decode_coded decode_coded {
-} }
-
-table! { decode_mixed decode_count {
-} }
-
-table! { encode_count encode_count {
-} }
-
-table! { encode_plain encode_plain {
-    "system_type" SystemType ();
-    "password_lock" PasswordLock ();
-    "network_parity_and_stop_bits" NetworkParityAndStopBits ();
-    "pulse_1_energy" Pulse1Energy ();
-    "network_baud_rate" NetworkBaudRate ();
-    "pulse_1_energy_type" Pulse1EnergyType ();
-    "reset" Reset ();
-} }
-
-table! { encode_coded encode_coded {
-} }
-
-table! { encode_mixed encode_count {
-} }
-
-table! { check check {
-    "system_type" SystemType ();
-    "password_lock" PasswordLock ();
-    "network_parity_and_stop_bits" NetworkParityAndStopBits ();
-    "pulse_1_energy" Pulse1Energy ();
-    "network_baud_rate" NetworkBaudRate ();
-    "pulse_1_energy_type" Pulse1EnergyType ();
-    "reset" Reset ();
-    "demand_period" DemandPeriod ();
-    "pulse_1_width" Pulse1Width ();
-    "network_node" NetworkNode ();
-    "password" Password ();
-    "register_order" RegisterOrder ();
-} }
-
-table! { name name {
-    "system_type" SystemType (enum u32);
-    "password_lock" PasswordLock (enum u32);
-    "network_parity_and_stop_bits" NetworkParityAndStopBits (enum u32);
-    "pulse_1_energy" Pulse1Energy (enum u32);
-    "network_baud_rate" NetworkBaudRate (enum u32);
-    "pulse_1_energy_type" Pulse1EnergyType (enum u32);
-    "reset" Reset (enum u16);
-} }
-
-table! { special special {
-} }
-
-table! { special_name special_name {
-} }
-
-table! { flag flag {
-} }
-
-table! { flag_name flag_name {
-} }
-
-table! { bits bits {
-} }
-
 table! { words words {
     "phase_1_voltage" Phase1Voltage (alone);
     "phase_2_voltage" Phase2Voltage (alone);
@@ -288,6 +202,93 @@ table! { words words {
     "pulse_1_energy_type" Pulse1EnergyType (alone);
     "serial_number" SerialNumber (alone);
     "register_order" RegisterOrder (alone);
+} }
+
+table! { symbol symbol {
+    "phase_1_voltage" Phase1Voltage (alone);
+    "phase_2_voltage" Phase2Voltage (alone);
+    "phase_3_voltage" Phase3Voltage (alone);
+    "phase_1_current" Phase1Current (alone);
+    "phase_2_current" Phase2Current (alone);
+    "phase_3_current" Phase3Current (alone);
+    "phase_1_active_power" Phase1ActivePower (alone);
+    "phase_2_active_power" Phase2ActivePower (alone);
+    "phase_3_active_power" Phase3ActivePower (alone);
+    "phase_1_apparent_power" Phase1ApparentPower (alone);
+    "phase_2_apparent_power" Phase2ApparentPower (alone);
+    "phase_3_apparent_power" Phase3ApparentPower (alone);
+    "phase_1_reactive_power" Phase1ReactivePower (alone);
+    "phase_2_reactive_power" Phase2ReactivePower (alone);
+    "phase_3_reactive_power" Phase3ReactivePower (alone);
+    "phase_1_phase_angle" Phase1PhaseAngle (alone);
+    "phase_2_phase_angle" Phase2PhaseAngle (alone);
+    "phase_3_phase_angle" Phase3PhaseAngle (alone);
+    "average_voltage" AverageVoltage (alone);
+    "average_current" AverageCurrent (alone);
+    "sum_of_currents" SumOfCurrents (alone);
+    "total_active_power" TotalActivePower (alone);
+    "total_apparent_power" TotalApparentPower (alone);
+    "total_reactive_power" TotalReactivePower (alone);
+    "total_phase_angle" TotalPhaseAngle (alone);
+    "frequency" Frequency (alone);
+    "import_active_energy" ImportActiveEnergy (alone);
+    "export_active_energy" ExportActiveEnergy (alone);
+    "import_reactive_energy" ImportReactiveEnergy (alone);
+    "export_reactive_energy" ExportReactiveEnergy (alone);
+    "apparent_energy" ApparentEnergy (alone);
+    "charge" Charge (alone);
+    "total_active_power_demand" TotalActivePowerDemand (alone);
+    "maximum_total_active_power_demand" MaximumTotalActivePowerDemand (alone);
+    "total_apparent_power_demand" TotalApparentPowerDemand (alone);
+    "maximum_total_apparent_power_demand" MaximumTotalApparentPowerDemand (alone);
+    "neutral_current_demand" NeutralCurrentDemand (alone);
+    "maximum_neutral_current_demand" MaximumNeutralCurrentDemand (alone);
+    "line_1_to_2_voltage" Line1To2Voltage (alone);
+    "line_2_to_3_voltage" Line2To3Voltage (alone);
+    "line_3_to_1_voltage" Line3To1Voltage (alone);
+    "average_line_to_line_voltage" AverageLineToLineVoltage (alone);
+    "neutral_current" NeutralCurrent (alone);
+    "phase_1_voltage_thd" Phase1VoltageThd (alone);
+    "phase_2_voltage_thd" Phase2VoltageThd (alone);
+    "phase_3_voltage_thd" Phase3VoltageThd (alone);
+    "phase_1_current_thd" Phase1CurrentThd (alone);
+    "phase_2_current_thd" Phase2CurrentThd (alone);
+    "phase_3_current_thd" Phase3CurrentThd (alone);
+    "average_voltage_thd" AverageVoltageThd (alone);
+    "average_current_thd" AverageCurrentThd (alone);
+    "phase_1_current_demand" Phase1CurrentDemand (alone);
+    "phase_2_current_demand" Phase2CurrentDemand (alone);
+    "phase_3_current_demand" Phase3CurrentDemand (alone);
+    "maximum_phase_1_current_demand" MaximumPhase1CurrentDemand (alone);
+    "maximum_phase_2_current_demand" MaximumPhase2CurrentDemand (alone);
+    "maximum_phase_3_current_demand" MaximumPhase3CurrentDemand (alone);
+    "line_1_to_2_voltage_thd" Line1To2VoltageThd (alone);
+    "line_2_to_3_voltage_thd" Line2To3VoltageThd (alone);
+    "line_3_to_1_voltage_thd" Line3To1VoltageThd (alone);
+    "average_line_to_line_voltage_thd" AverageLineToLineVoltageThd (alone);
+    "total_active_energy" TotalActiveEnergy (alone);
+    "total_reactive_energy" TotalReactiveEnergy (alone);
+    "phase_1_import_active_energy" Phase1ImportActiveEnergy (alone);
+    "phase_2_import_active_energy" Phase2ImportActiveEnergy (alone);
+    "phase_3_import_active_energy" Phase3ImportActiveEnergy (alone);
+    "phase_1_export_active_energy" Phase1ExportActiveEnergy (alone);
+    "phase_2_export_active_energy" Phase2ExportActiveEnergy (alone);
+    "phase_3_export_active_energy" Phase3ExportActiveEnergy (alone);
+    "phase_1_total_active_energy" Phase1TotalActiveEnergy (alone);
+    "phase_2_total_active_energy" Phase2TotalActiveEnergy (alone);
+    "phase_3_total_active_energy" Phase3TotalActiveEnergy (alone);
+    "phase_1_import_reactive_energy" Phase1ImportReactiveEnergy (alone);
+    "phase_2_import_reactive_energy" Phase2ImportReactiveEnergy (alone);
+    "phase_3_import_reactive_energy" Phase3ImportReactiveEnergy (alone);
+    "phase_1_export_reactive_energy" Phase1ExportReactiveEnergy (alone);
+    "phase_2_export_reactive_energy" Phase2ExportReactiveEnergy (alone);
+    "phase_3_export_reactive_energy" Phase3ExportReactiveEnergy (alone);
+    "phase_1_total_reactive_energy" Phase1TotalReactiveEnergy (alone);
+    "phase_2_total_reactive_energy" Phase2TotalReactiveEnergy (alone);
+    "phase_3_total_reactive_energy" Phase3TotalReactiveEnergy (alone);
+    "demand_time" DemandTime (alone);
+    "demand_period" DemandPeriod (alone);
+    "pulse_1_width" Pulse1Width (alone);
 } }
 
 table! { address address {
@@ -392,93 +393,6 @@ table! { address address {
     "register_order" RegisterOrder (at REFERENCE "reference");
 } }
 
-table! { symbol symbol {
-    "phase_1_voltage" Phase1Voltage (alone);
-    "phase_2_voltage" Phase2Voltage (alone);
-    "phase_3_voltage" Phase3Voltage (alone);
-    "phase_1_current" Phase1Current (alone);
-    "phase_2_current" Phase2Current (alone);
-    "phase_3_current" Phase3Current (alone);
-    "phase_1_active_power" Phase1ActivePower (alone);
-    "phase_2_active_power" Phase2ActivePower (alone);
-    "phase_3_active_power" Phase3ActivePower (alone);
-    "phase_1_apparent_power" Phase1ApparentPower (alone);
-    "phase_2_apparent_power" Phase2ApparentPower (alone);
-    "phase_3_apparent_power" Phase3ApparentPower (alone);
-    "phase_1_reactive_power" Phase1ReactivePower (alone);
-    "phase_2_reactive_power" Phase2ReactivePower (alone);
-    "phase_3_reactive_power" Phase3ReactivePower (alone);
-    "phase_1_phase_angle" Phase1PhaseAngle (alone);
-    "phase_2_phase_angle" Phase2PhaseAngle (alone);
-    "phase_3_phase_angle" Phase3PhaseAngle (alone);
-    "average_voltage" AverageVoltage (alone);
-    "average_current" AverageCurrent (alone);
-    "sum_of_currents" SumOfCurrents (alone);
-    "total_active_power" TotalActivePower (alone);
-    "total_apparent_power" TotalApparentPower (alone);
-    "total_reactive_power" TotalReactivePower (alone);
-    "total_phase_angle" TotalPhaseAngle (alone);
-    "frequency" Frequency (alone);
-    "import_active_energy" ImportActiveEnergy (alone);
-    "export_active_energy" ExportActiveEnergy (alone);
-    "import_reactive_energy" ImportReactiveEnergy (alone);
-    "export_reactive_energy" ExportReactiveEnergy (alone);
-    "apparent_energy" ApparentEnergy (alone);
-    "charge" Charge (alone);
-    "total_active_power_demand" TotalActivePowerDemand (alone);
-    "maximum_total_active_power_demand" MaximumTotalActivePowerDemand (alone);
-    "total_apparent_power_demand" TotalApparentPowerDemand (alone);
-    "maximum_total_apparent_power_demand" MaximumTotalApparentPowerDemand (alone);
-    "neutral_current_demand" NeutralCurrentDemand (alone);
-    "maximum_neutral_current_demand" MaximumNeutralCurrentDemand (alone);
-    "line_1_to_2_voltage" Line1To2Voltage (alone);
-    "line_2_to_3_voltage" Line2To3Voltage (alone);
-    "line_3_to_1_voltage" Line3To1Voltage (alone);
-    "average_line_to_line_voltage" AverageLineToLineVoltage (alone);
-    "neutral_current" NeutralCurrent (alone);
-    "phase_1_voltage_thd" Phase1VoltageThd (alone);
-    "phase_2_voltage_thd" Phase2VoltageThd (alone);
-    "phase_3_voltage_thd" Phase3VoltageThd (alone);
-    "phase_1_current_thd" Phase1CurrentThd (alone);
-    "phase_2_current_thd" Phase2CurrentThd (alone);
-    "phase_3_current_thd" Phase3CurrentThd (alone);
-    "average_voltage_thd" AverageVoltageThd (alone);
-    "average_current_thd" AverageCurrentThd (alone);
-    "phase_1_current_demand" Phase1CurrentDemand (alone);
-    "phase_2_current_demand" Phase2CurrentDemand (alone);
-    "phase_3_current_demand" Phase3CurrentDemand (alone);
-    "maximum_phase_1_current_demand" MaximumPhase1CurrentDemand (alone);
-    "maximum_phase_2_current_demand" MaximumPhase2CurrentDemand (alone);
-    "maximum_phase_3_current_demand" MaximumPhase3CurrentDemand (alone);
-    "line_1_to_2_voltage_thd" Line1To2VoltageThd (alone);
-    "line_2_to_3_voltage_thd" Line2To3VoltageThd (alone);
-    "line_3_to_1_voltage_thd" Line3To1VoltageThd (alone);
-    "average_line_to_line_voltage_thd" AverageLineToLineVoltageThd (alone);
-    "total_active_energy" TotalActiveEnergy (alone);
-    "total_reactive_energy" TotalReactiveEnergy (alone);
-    "phase_1_import_active_energy" Phase1ImportActiveEnergy (alone);
-    "phase_2_import_active_energy" Phase2ImportActiveEnergy (alone);
-    "phase_3_import_active_energy" Phase3ImportActiveEnergy (alone);
-    "phase_1_export_active_energy" Phase1ExportActiveEnergy (alone);
-    "phase_2_export_active_energy" Phase2ExportActiveEnergy (alone);
-    "phase_3_export_active_energy" Phase3ExportActiveEnergy (alone);
-    "phase_1_total_active_energy" Phase1TotalActiveEnergy (alone);
-    "phase_2_total_active_energy" Phase2TotalActiveEnergy (alone);
-    "phase_3_total_active_energy" Phase3TotalActiveEnergy (alone);
-    "phase_1_import_reactive_energy" Phase1ImportReactiveEnergy (alone);
-    "phase_2_import_reactive_energy" Phase2ImportReactiveEnergy (alone);
-    "phase_3_import_reactive_energy" Phase3ImportReactiveEnergy (alone);
-    "phase_1_export_reactive_energy" Phase1ExportReactiveEnergy (alone);
-    "phase_2_export_reactive_energy" Phase2ExportReactiveEnergy (alone);
-    "phase_3_export_reactive_energy" Phase3ExportReactiveEnergy (alone);
-    "phase_1_total_reactive_energy" Phase1TotalReactiveEnergy (alone);
-    "phase_2_total_reactive_energy" Phase2TotalReactiveEnergy (alone);
-    "phase_3_total_reactive_energy" Phase3TotalReactiveEnergy (alone);
-    "demand_time" DemandTime (alone);
-    "demand_period" DemandPeriod (alone);
-    "pulse_1_width" Pulse1Width (alone);
-} }
-
 table! { read_by_read read {
     "phase_1_voltage" Phase1Voltage (wire);
     "phase_2_voltage" Phase2Voltage (wire);
@@ -580,6 +494,29 @@ table! { read_by_read read {
     "register_order" RegisterOrder (wire);
 } }
 
+table! { encode encode {
+    "demand_period" DemandPeriod ();
+    "pulse_1_width" Pulse1Width ();
+    "network_node" NetworkNode ();
+    "password" Password ();
+    "register_order" RegisterOrder ();
+} }
+
+table! { check check {
+    "demand_period" DemandPeriod ();
+    "system_type" SystemType ();
+    "pulse_1_width" Pulse1Width ();
+    "password_lock" PasswordLock ();
+    "network_parity_and_stop_bits" NetworkParityAndStopBits ();
+    "network_node" NetworkNode ();
+    "pulse_1_energy" Pulse1Energy ();
+    "password" Password ();
+    "network_baud_rate" NetworkBaudRate ();
+    "pulse_1_energy_type" Pulse1EnergyType ();
+    "reset" Reset ();
+    "register_order" RegisterOrder ();
+} }
+
 table! { write_by_write write {
     "demand_period" DemandPeriod (wire () ());
     "system_type" SystemType (wire () ());
@@ -592,6 +529,36 @@ table! { write_by_write write {
     "network_baud_rate" NetworkBaudRate (wire () ());
     "pulse_1_energy_type" Pulse1EnergyType (wire () ());
     "register_order" RegisterOrder (wire () ());
+} }
+
+table! { decode_plain decode_plain {
+    "system_type" SystemType ();
+    "password_lock" PasswordLock ();
+    "network_parity_and_stop_bits" NetworkParityAndStopBits ();
+    "pulse_1_energy" Pulse1Energy ();
+    "network_baud_rate" NetworkBaudRate ();
+    "pulse_1_energy_type" Pulse1EnergyType ();
+    "serial_number" SerialNumber ();
+} }
+
+table! { encode_plain encode_plain {
+    "system_type" SystemType ();
+    "password_lock" PasswordLock ();
+    "network_parity_and_stop_bits" NetworkParityAndStopBits ();
+    "pulse_1_energy" Pulse1Energy ();
+    "network_baud_rate" NetworkBaudRate ();
+    "pulse_1_energy_type" Pulse1EnergyType ();
+    "reset" Reset ();
+} }
+
+table! { name name {
+    "system_type" SystemType (enum u32);
+    "password_lock" PasswordLock (enum u32);
+    "network_parity_and_stop_bits" NetworkParityAndStopBits (enum u32);
+    "pulse_1_energy" Pulse1Energy (enum u32);
+    "network_baud_rate" NetworkBaudRate (enum u32);
+    "pulse_1_energy_type" Pulse1EnergyType (enum u32);
+    "reset" Reset (enum u16);
 } }
 
 table! { write_by_write_only write_only {
@@ -612,33 +579,22 @@ table! { command command {
 fn run(kind: &str, vector: &runner::Vector) -> Option<runner::Outcome> {
     match kind {
         "decode" => decode(vector),
-        "encode" => encode(vector),
-        "decode_count" => decode_count(vector)
-            .or_else(|| decode_plain(vector))
-            .or_else(|| decode_coded(vector))
-            .or_else(|| decode_mixed(vector)),
-        "encode_count" => encode_count(vector)
-            .or_else(|| encode_plain(vector))
-            .or_else(|| encode_coded(vector))
-            .or_else(|| encode_mixed(vector)),
-        "check" => check(vector),
-        "name" => name(vector),
-        "special" => special(vector),
-        "special_name" => special_name(vector),
-        "flag" => flag(vector),
-        "flag_name" => flag_name(vector),
-        "bits" => bits(vector),
         "words" => words(vector),
-        "address" => runner::listed(vector, device::POINTS, address(vector)),
         "symbol" => symbol(vector),
-        "command" => command(vector),
         "read" => read_by_read(vector),
+        "encode" => encode(vector),
+        "check" => check(vector),
         "write" => write_by_write(vector).or_else(|| write_by_write_only(vector)),
+        "decode_count" => decode_plain(vector),
+        "encode_count" => encode_plain(vector),
+        "name" => name(vector),
+        "command" => command(vector),
+        "address" => runner::listed(vector, device::POINTS, address(vector)),
         "code" => {
             code(vector).map(|found| found.and_then(|()| frames::named(vector, &device::PROFILE)))
         }
-        "build" | "printed_build" => Some(frames::build(vector, &device::PROFILE)),
-        "reply" | "printed_reply" => Some(frames::reply(vector)),
+        "build" => Some(frames::build(vector, &device::PROFILE)),
+        "reply" => Some(frames::reply(vector)),
         "block" => Some(frames::block(vector, device::BLOCKS)),
         _ => None,
     }

@@ -9,176 +9,274 @@ use fieldscribe_conformance::{self as runner, table};
 
 use ::fronius_datamanager as device;
 
-table! { decode decode {
-    "ac_current" AcCurrent (AcCurrent: ac_current_exponent "ac_current_exponent");
-    "phase_a_current" PhaseACurrent (PhaseACurrent: ac_current_exponent "ac_current_exponent");
-    "phase_b_current" PhaseBCurrent (PhaseBCurrent: ac_current_exponent "ac_current_exponent");
-    "phase_c_current" PhaseCCurrent (PhaseCCurrent: ac_current_exponent "ac_current_exponent");
-    "phase_a_to_b_voltage" PhaseAToBVoltage (PhaseAToBVoltage: ac_voltage_exponent "ac_voltage_exponent");
-    "phase_b_to_c_voltage" PhaseBToCVoltage (PhaseBToCVoltage: ac_voltage_exponent "ac_voltage_exponent");
-    "phase_c_to_a_voltage" PhaseCToAVoltage (PhaseCToAVoltage: ac_voltage_exponent "ac_voltage_exponent");
-    "phase_a_voltage" PhaseAVoltage (PhaseAVoltage: ac_voltage_exponent "ac_voltage_exponent");
-    "phase_b_voltage" PhaseBVoltage (PhaseBVoltage: ac_voltage_exponent "ac_voltage_exponent");
-    "phase_c_voltage" PhaseCVoltage (PhaseCVoltage: ac_voltage_exponent "ac_voltage_exponent");
-    "ac_power" AcPower (AcPower: ac_power_exponent "ac_power_exponent");
-    "frequency" Frequency (Frequency: frequency_exponent "frequency_exponent");
-    "apparent_power" ApparentPower (ApparentPower: apparent_power_exponent "apparent_power_exponent");
-    "reactive_power" ReactivePower (ReactivePower: reactive_power_exponent "reactive_power_exponent");
-    "power_factor" PowerFactor (PowerFactor: power_factor_exponent "power_factor_exponent");
-    "lifetime_energy" LifetimeEnergy (LifetimeEnergy: lifetime_energy_exponent "lifetime_energy_exponent");
-    "dc_current" DcCurrent (DcCurrent: dc_current_exponent "dc_current_exponent");
-    "dc_voltage" DcVoltage (DcVoltage: dc_voltage_exponent "dc_voltage_exponent");
-    "dc_power" DcPower (DcPower: dc_power_exponent "dc_power_exponent");
-    "cabinet_temperature" CabinetTemperature (CabinetTemperature: temperature_exponent
-        "temperature_exponent");
-    "heat_sink_temperature" HeatSinkTemperature (HeatSinkTemperature: temperature_exponent
-        "temperature_exponent");
-    "transformer_temperature" TransformerTemperature (TransformerTemperature: temperature_exponent
-        "temperature_exponent");
-    "other_temperature" OtherTemperature (OtherTemperature: temperature_exponent "temperature_exponent");
-    "rated_power" RatedPower (RatedPower: rated_power_exponent "rated_power_exponent");
-    "rated_apparent_power" RatedApparentPower (RatedApparentPower: rated_apparent_power_exponent
-        "rated_apparent_power_exponent");
-    "rated_reactive_power_q1" RatedReactivePowerQ1 (RatedReactivePowerQ1: rated_reactive_power_exponent
-        "rated_reactive_power_exponent");
-    "rated_reactive_power_q2" RatedReactivePowerQ2 (RatedReactivePowerQ2: rated_reactive_power_exponent
-        "rated_reactive_power_exponent");
-    "rated_reactive_power_q3" RatedReactivePowerQ3 (RatedReactivePowerQ3: rated_reactive_power_exponent
-        "rated_reactive_power_exponent");
-    "rated_reactive_power_q4" RatedReactivePowerQ4 (RatedReactivePowerQ4: rated_reactive_power_exponent
-        "rated_reactive_power_exponent");
-    "rated_current" RatedCurrent (RatedCurrent: rated_current_exponent "rated_current_exponent");
-    "rated_power_factor_q1" RatedPowerFactorQ1 (RatedPowerFactorQ1: rated_power_factor_exponent
-        "rated_power_factor_exponent");
-    "rated_power_factor_q2" RatedPowerFactorQ2 (RatedPowerFactorQ2: rated_power_factor_exponent
-        "rated_power_factor_exponent");
-    "rated_power_factor_q3" RatedPowerFactorQ3 (RatedPowerFactorQ3: rated_power_factor_exponent
-        "rated_power_factor_exponent");
-    "rated_power_factor_q4" RatedPowerFactorQ4 (RatedPowerFactorQ4: rated_power_factor_exponent
-        "rated_power_factor_exponent");
-    "rated_energy" RatedEnergy (RatedEnergy: rated_energy_exponent "rated_energy_exponent");
-    "rated_charge" RatedCharge (RatedCharge: rated_charge_exponent "rated_charge_exponent");
-    "maximum_charge_rate" MaximumChargeRate (MaximumChargeRate: maximum_charge_rate_exponent
-        "maximum_charge_rate_exponent");
-    "maximum_discharge_rate" MaximumDischargeRate (MaximumDischargeRate: maximum_discharge_rate_exponent
-        "maximum_discharge_rate_exponent");
-    "maximum_power" MaximumPower (MaximumPower: maximum_power_exponent "maximum_power_exponent");
-    "reference_voltage" ReferenceVoltage (ReferenceVoltage: reference_voltage_exponent
-        "reference_voltage_exponent");
-    "reference_voltage_offset" ReferenceVoltageOffset (ReferenceVoltageOffset:
-        reference_voltage_offset_exponent "reference_voltage_offset_exponent");
-    "maximum_voltage" MaximumVoltage (MaximumVoltage: voltage_limits_exponent "voltage_limits_exponent");
-    "minimum_voltage" MinimumVoltage (MinimumVoltage: voltage_limits_exponent "voltage_limits_exponent");
-    "maximum_apparent_power" MaximumApparentPower (MaximumApparentPower: maximum_apparent_power_exponent
-        "maximum_apparent_power_exponent");
-    "maximum_reactive_power_q1" MaximumReactivePowerQ1 (MaximumReactivePowerQ1:
-        maximum_reactive_power_exponent "maximum_reactive_power_exponent");
-    "maximum_reactive_power_q2" MaximumReactivePowerQ2 (MaximumReactivePowerQ2:
-        maximum_reactive_power_exponent "maximum_reactive_power_exponent");
-    "maximum_reactive_power_q3" MaximumReactivePowerQ3 (MaximumReactivePowerQ3:
-        maximum_reactive_power_exponent "maximum_reactive_power_exponent");
-    "maximum_reactive_power_q4" MaximumReactivePowerQ4 (MaximumReactivePowerQ4:
-        maximum_reactive_power_exponent "maximum_reactive_power_exponent");
-    "power_ramp_rate" PowerRampRate (PowerRampRate: power_ramp_rate_exponent "power_ramp_rate_exponent");
-    "minimum_power_factor_q1" MinimumPowerFactorQ1 (MinimumPowerFactorQ1: minimum_power_factor_exponent
-        "minimum_power_factor_exponent");
-    "minimum_power_factor_q2" MinimumPowerFactorQ2 (MinimumPowerFactorQ2: minimum_power_factor_exponent
-        "minimum_power_factor_exponent");
-    "minimum_power_factor_q3" MinimumPowerFactorQ3 (MinimumPowerFactorQ3: minimum_power_factor_exponent
-        "minimum_power_factor_exponent");
-    "minimum_power_factor_q4" MinimumPowerFactorQ4 (MinimumPowerFactorQ4: minimum_power_factor_exponent
-        "minimum_power_factor_exponent");
-    "maximum_ramp_rate" MaximumRampRate (MaximumRampRate: maximum_ramp_rate_exponent
-        "maximum_ramp_rate_exponent");
-    "nominal_frequency" NominalFrequency (NominalFrequency: nominal_frequency_exponent
-        "nominal_frequency_exponent");
-    "available_reactive_power" AvailableReactivePower (AvailableReactivePower:
-        available_reactive_power_exponent "available_reactive_power_exponent");
-    "available_power" AvailablePower (AvailablePower: available_power_exponent "available_power_exponent");
-    "isolation_resistance" IsolationResistance (IsolationResistance: isolation_resistance_exponent
-        "isolation_resistance_exponent");
-    "power_limit" PowerLimit (PowerLimit: power_limit_exponent "power_limit_exponent");
-    "power_factor_setpoint" PowerFactorSetpoint (PowerFactorSetpoint: power_factor_setpoint_exponent
-        "power_factor_setpoint_exponent");
-    "reactive_power_of_maximum_power" ReactivePowerOfMaximumPower (ReactivePowerOfMaximumPower:
-        reactive_power_percent_exponent "reactive_power_percent_exponent");
-    "reactive_power_of_maximum" ReactivePowerOfMaximum (ReactivePowerOfMaximum:
-        reactive_power_percent_exponent "reactive_power_percent_exponent");
-    "reactive_power_of_available" ReactivePowerOfAvailable (ReactivePowerOfAvailable:
-        reactive_power_percent_exponent "reactive_power_percent_exponent");
-    "module_current_index_1" ModuleCurrentIndex1 (ModuleCurrentIndex1: module_current_exponent
-        "module_current_exponent");
-    "module_current_index_2" ModuleCurrentIndex2 (ModuleCurrentIndex2: module_current_exponent
-        "module_current_exponent");
-    "module_voltage_index_1" ModuleVoltageIndex1 (ModuleVoltageIndex1: module_voltage_exponent
-        "module_voltage_exponent");
-    "module_voltage_index_2" ModuleVoltageIndex2 (ModuleVoltageIndex2: module_voltage_exponent
-        "module_voltage_exponent");
-    "module_power_index_1" ModulePowerIndex1 (ModulePowerIndex1: module_power_exponent
-        "module_power_exponent");
-    "module_power_index_2" ModulePowerIndex2 (ModulePowerIndex2: module_power_exponent
-        "module_power_exponent");
-    "module_energy_index_1" ModuleEnergyIndex1 (ModuleEnergyIndex1: module_energy_exponent
-        "module_energy_exponent");
-    "module_energy_index_2" ModuleEnergyIndex2 (ModuleEnergyIndex2: module_energy_exponent
-        "module_energy_exponent");
-    "maximum_charge_power" MaximumChargePower (MaximumChargePower: maximum_charge_power_exponent
-        "maximum_charge_power_exponent");
-    "charge_ramp_rate" ChargeRampRate (ChargeRampRate: charge_ramp_rate_exponent
-        "charge_ramp_rate_exponent");
-    "discharge_ramp_rate" DischargeRampRate (DischargeRampRate: charge_ramp_rate_exponent
-        "charge_ramp_rate_exponent");
-    "maximum_charge_apparent_power" MaximumChargeApparentPower (MaximumChargeApparentPower:
-        maximum_charge_apparent_power_exponent "maximum_charge_apparent_power_exponent");
-    "minimum_reserve" MinimumReserve (MinimumReserve: minimum_reserve_exponent "minimum_reserve_exponent");
-    "state_of_charge" StateOfCharge (StateOfCharge: state_of_charge_exponent "state_of_charge_exponent");
-    "available_charge" AvailableCharge (AvailableCharge: available_charge_exponent
-        "available_charge_exponent");
-    "battery_voltage" BatteryVoltage (BatteryVoltage: battery_voltage_exponent "battery_voltage_exponent");
-    "discharge_limit" DischargeLimit (DischargeLimit: storage_limits_exponent "storage_limits_exponent");
-    "charge_limit" ChargeLimit (ChargeLimit: storage_limits_exponent "storage_limits_exponent");
+table! { text_decode text_decode {
+    "manufacturer" Manufacturer (sizes 32 16);
+    "model" Model (sizes 32 16);
+    "options" Options (sizes 16 8);
+    "version" Version (sizes 16 8);
+    "serial_number" SerialNumber (sizes 32 16);
+    "time_source" TimeSource (sizes 8 4);
+    "module_name_index_1" ModuleNameIndex1 (sizes 16 8);
+    "module_name_index_2" ModuleNameIndex2 (sizes 16 8);
 } }
 
-table! { encode encode {
-    "maximum_power" MaximumPower (MaximumPower: maximum_power_exponent "maximum_power_exponent");
-    "reference_voltage" ReferenceVoltage (ReferenceVoltage: reference_voltage_exponent
-        "reference_voltage_exponent");
-    "reference_voltage_offset" ReferenceVoltageOffset (ReferenceVoltageOffset:
-        reference_voltage_offset_exponent "reference_voltage_offset_exponent");
-    "maximum_voltage" MaximumVoltage (MaximumVoltage: voltage_limits_exponent "voltage_limits_exponent");
-    "minimum_voltage" MinimumVoltage (MinimumVoltage: voltage_limits_exponent "voltage_limits_exponent");
-    "maximum_apparent_power" MaximumApparentPower (MaximumApparentPower: maximum_apparent_power_exponent
-        "maximum_apparent_power_exponent");
-    "power_limit" PowerLimit (PowerLimit: power_limit_exponent "power_limit_exponent");
-    "power_factor_setpoint" PowerFactorSetpoint (PowerFactorSetpoint: power_factor_setpoint_exponent
-        "power_factor_setpoint_exponent");
-    "reactive_power_of_maximum" ReactivePowerOfMaximum (ReactivePowerOfMaximum:
-        reactive_power_percent_exponent "reactive_power_percent_exponent");
-    "minimum_reserve" MinimumReserve (MinimumReserve: minimum_reserve_exponent "minimum_reserve_exponent");
-    "discharge_limit" DischargeLimit (DischargeLimit: storage_limits_exponent "storage_limits_exponent");
-    "charge_limit" ChargeLimit (ChargeLimit: storage_limits_exponent "storage_limits_exponent");
+table! { place place {
+    "manufacturer" Manufacturer (alone);
+    "model" Model (alone);
+    "options" Options (alone);
+    "version" Version (alone);
+    "serial_number" SerialNumber (alone);
+    "time_source" TimeSource (alone);
+    "module_current_exponent" ModuleCurrentExponent (alone);
+    "module_voltage_exponent" ModuleVoltageExponent (alone);
+    "module_power_exponent" ModulePowerExponent (alone);
+    "module_energy_exponent" ModuleEnergyExponent (alone);
+    "module_global_events" ModuleGlobalEvents (alone);
+    "modules" Modules (alone);
+    "timestamp_period" TimestampPeriod (alone);
+    "module_input_index_1" ModuleInputIndex1 (alone);
+    "module_input_index_2" ModuleInputIndex2 (alone);
+    "module_name_index_1" ModuleNameIndex1 (alone);
+    "module_name_index_2" ModuleNameIndex2 (alone);
+    "module_current_index_1" ModuleCurrentIndex1 (alone);
+    "module_current_index_2" ModuleCurrentIndex2 (alone);
+    "module_voltage_index_1" ModuleVoltageIndex1 (alone);
+    "module_voltage_index_2" ModuleVoltageIndex2 (alone);
+    "module_power_index_1" ModulePowerIndex1 (alone);
+    "module_power_index_2" ModulePowerIndex2 (alone);
+    "module_energy_index_1" ModuleEnergyIndex1 (alone);
+    "module_energy_index_2" ModuleEnergyIndex2 (alone);
+    "module_timestamp_index_1" ModuleTimestampIndex1 (alone);
+    "module_timestamp_index_2" ModuleTimestampIndex2 (alone);
+    "module_temperature_index_1" ModuleTemperatureIndex1 (alone);
+    "module_temperature_index_2" ModuleTemperatureIndex2 (alone);
+    "module_operating_state_index_1" ModuleOperatingStateIndex1 (alone);
+    "module_operating_state_index_2" ModuleOperatingStateIndex2 (alone);
+    "module_events_index_1" ModuleEventsIndex1 (alone);
+    "module_events_index_2" ModuleEventsIndex2 (alone);
 } }
 
-table! { decode_count decode_count {
+table! { address address {
+    "manufacturer" Manufacturer (text REGISTER "register");
+    "model" Model (text REGISTER "register");
+    "options" Options (text REGISTER "register");
+    "version" Version (text REGISTER "register");
+    "serial_number" SerialNumber (text REGISTER "register");
+    "device_address" DeviceAddress (at REGISTER "register");
+    "ac_current" AcCurrent (at REGISTER "register");
+    "phase_a_current" PhaseACurrent (at REGISTER "register");
+    "phase_b_current" PhaseBCurrent (at REGISTER "register");
+    "phase_c_current" PhaseCCurrent (at REGISTER "register");
+    "ac_current_exponent" AcCurrentExponent (at REGISTER "register");
+    "phase_a_to_b_voltage" PhaseAToBVoltage (at REGISTER "register");
+    "phase_b_to_c_voltage" PhaseBToCVoltage (at REGISTER "register");
+    "phase_c_to_a_voltage" PhaseCToAVoltage (at REGISTER "register");
+    "phase_a_voltage" PhaseAVoltage (at REGISTER "register");
+    "phase_b_voltage" PhaseBVoltage (at REGISTER "register");
+    "phase_c_voltage" PhaseCVoltage (at REGISTER "register");
+    "ac_voltage_exponent" AcVoltageExponent (at REGISTER "register");
+    "ac_power" AcPower (at REGISTER "register");
+    "ac_power_exponent" AcPowerExponent (at REGISTER "register");
+    "frequency" Frequency (at REGISTER "register");
+    "frequency_exponent" FrequencyExponent (at REGISTER "register");
+    "apparent_power" ApparentPower (at REGISTER "register");
+    "apparent_power_exponent" ApparentPowerExponent (at REGISTER "register");
+    "reactive_power" ReactivePower (at REGISTER "register");
+    "reactive_power_exponent" ReactivePowerExponent (at REGISTER "register");
+    "power_factor" PowerFactor (at REGISTER "register");
+    "power_factor_exponent" PowerFactorExponent (at REGISTER "register");
+    "lifetime_energy" LifetimeEnergy (at REGISTER "register");
+    "lifetime_energy_exponent" LifetimeEnergyExponent (at REGISTER "register");
+    "dc_current" DcCurrent (at REGISTER "register");
+    "dc_current_exponent" DcCurrentExponent (at REGISTER "register");
+    "dc_voltage" DcVoltage (at REGISTER "register");
+    "dc_voltage_exponent" DcVoltageExponent (at REGISTER "register");
+    "dc_power" DcPower (at REGISTER "register");
+    "dc_power_exponent" DcPowerExponent (at REGISTER "register");
+    "cabinet_temperature" CabinetTemperature (at REGISTER "register");
+    "heat_sink_temperature" HeatSinkTemperature (at REGISTER "register");
+    "transformer_temperature" TransformerTemperature (at REGISTER "register");
+    "other_temperature" OtherTemperature (at REGISTER "register");
+    "temperature_exponent" TemperatureExponent (at REGISTER "register");
+    "operating_state" OperatingState (at REGISTER "register");
+    "vendor_operating_state" VendorOperatingState (at REGISTER "register");
+    "events_1" Events1 (at REGISTER "register");
+    "events_2" Events2 (at REGISTER "register");
+    "vendor_events_1" VendorEvents1 (at REGISTER "register");
+    "vendor_events_2" VendorEvents2 (at REGISTER "register");
+    "vendor_events_3" VendorEvents3 (at REGISTER "register");
+    "vendor_events_4" VendorEvents4 (at REGISTER "register");
+    "der_type" DerType (at REGISTER "register");
+    "rated_power" RatedPower (at REGISTER "register");
+    "rated_power_exponent" RatedPowerExponent (at REGISTER "register");
+    "rated_apparent_power" RatedApparentPower (at REGISTER "register");
+    "rated_apparent_power_exponent" RatedApparentPowerExponent (at REGISTER "register");
+    "rated_reactive_power_q1" RatedReactivePowerQ1 (at REGISTER "register");
+    "rated_reactive_power_q2" RatedReactivePowerQ2 (at REGISTER "register");
+    "rated_reactive_power_q3" RatedReactivePowerQ3 (at REGISTER "register");
+    "rated_reactive_power_q4" RatedReactivePowerQ4 (at REGISTER "register");
+    "rated_reactive_power_exponent" RatedReactivePowerExponent (at REGISTER "register");
+    "rated_current" RatedCurrent (at REGISTER "register");
+    "rated_current_exponent" RatedCurrentExponent (at REGISTER "register");
+    "rated_power_factor_q1" RatedPowerFactorQ1 (at REGISTER "register");
+    "rated_power_factor_q2" RatedPowerFactorQ2 (at REGISTER "register");
+    "rated_power_factor_q3" RatedPowerFactorQ3 (at REGISTER "register");
+    "rated_power_factor_q4" RatedPowerFactorQ4 (at REGISTER "register");
+    "rated_power_factor_exponent" RatedPowerFactorExponent (at REGISTER "register");
+    "rated_energy" RatedEnergy (at REGISTER "register");
+    "rated_energy_exponent" RatedEnergyExponent (at REGISTER "register");
+    "rated_charge" RatedCharge (at REGISTER "register");
+    "rated_charge_exponent" RatedChargeExponent (at REGISTER "register");
+    "maximum_charge_rate" MaximumChargeRate (at REGISTER "register");
+    "maximum_charge_rate_exponent" MaximumChargeRateExponent (at REGISTER "register");
+    "maximum_discharge_rate" MaximumDischargeRate (at REGISTER "register");
+    "maximum_discharge_rate_exponent" MaximumDischargeRateExponent (at REGISTER "register");
+    "maximum_power" MaximumPower (at REGISTER "register");
+    "reference_voltage" ReferenceVoltage (at REGISTER "register");
+    "reference_voltage_offset" ReferenceVoltageOffset (at REGISTER "register");
+    "maximum_voltage" MaximumVoltage (at REGISTER "register");
+    "minimum_voltage" MinimumVoltage (at REGISTER "register");
+    "maximum_apparent_power" MaximumApparentPower (at REGISTER "register");
+    "maximum_reactive_power_q1" MaximumReactivePowerQ1 (at REGISTER "register");
+    "maximum_reactive_power_q2" MaximumReactivePowerQ2 (at REGISTER "register");
+    "maximum_reactive_power_q3" MaximumReactivePowerQ3 (at REGISTER "register");
+    "maximum_reactive_power_q4" MaximumReactivePowerQ4 (at REGISTER "register");
+    "power_ramp_rate" PowerRampRate (at REGISTER "register");
+    "minimum_power_factor_q1" MinimumPowerFactorQ1 (at REGISTER "register");
+    "minimum_power_factor_q2" MinimumPowerFactorQ2 (at REGISTER "register");
+    "minimum_power_factor_q3" MinimumPowerFactorQ3 (at REGISTER "register");
+    "minimum_power_factor_q4" MinimumPowerFactorQ4 (at REGISTER "register");
+    "reactive_power_action" ReactivePowerAction (at REGISTER "register");
+    "apparent_power_method" ApparentPowerMethod (at REGISTER "register");
+    "maximum_ramp_rate" MaximumRampRate (at REGISTER "register");
+    "nominal_frequency" NominalFrequency (at REGISTER "register");
+    "connected_phase" ConnectedPhase (at REGISTER "register");
+    "maximum_power_exponent" MaximumPowerExponent (at REGISTER "register");
+    "reference_voltage_exponent" ReferenceVoltageExponent (at REGISTER "register");
+    "reference_voltage_offset_exponent" ReferenceVoltageOffsetExponent (at REGISTER "register");
+    "voltage_limits_exponent" VoltageLimitsExponent (at REGISTER "register");
+    "maximum_apparent_power_exponent" MaximumApparentPowerExponent (at REGISTER "register");
+    "maximum_reactive_power_exponent" MaximumReactivePowerExponent (at REGISTER "register");
+    "power_ramp_rate_exponent" PowerRampRateExponent (at REGISTER "register");
+    "minimum_power_factor_exponent" MinimumPowerFactorExponent (at REGISTER "register");
+    "maximum_ramp_rate_exponent" MaximumRampRateExponent (at REGISTER "register");
+    "nominal_frequency_exponent" NominalFrequencyExponent (at REGISTER "register");
+    "pv_connection" PvConnection (at REGISTER "register");
+    "storage_connection" StorageConnection (at REGISTER "register");
+    "grid_connection" GridConnection (at REGISTER "register");
+    "active_energy" ActiveEnergy (at REGISTER "register");
+    "apparent_energy" ApparentEnergy (at REGISTER "register");
+    "reactive_energy_q1" ReactiveEnergyQ1 (at REGISTER "register");
+    "reactive_energy_q2" ReactiveEnergyQ2 (at REGISTER "register");
+    "reactive_energy_q3" ReactiveEnergyQ3 (at REGISTER "register");
+    "reactive_energy_q4" ReactiveEnergyQ4 (at REGISTER "register");
+    "available_reactive_power" AvailableReactivePower (at REGISTER "register");
+    "available_reactive_power_exponent" AvailableReactivePowerExponent (at REGISTER "register");
+    "available_power" AvailablePower (at REGISTER "register");
+    "available_power_exponent" AvailablePowerExponent (at REGISTER "register");
+    "limits_reached" LimitsReached (at REGISTER "register");
+    "active_controls" ActiveControls (at REGISTER "register");
+    "time_source" TimeSource (text REGISTER "register");
+    "time" Time (at REGISTER "register");
+    "ride_through_status" RideThroughStatus (at REGISTER "register");
+    "isolation_resistance" IsolationResistance (at REGISTER "register");
+    "isolation_resistance_exponent" IsolationResistanceExponent (at REGISTER "register");
+    "connection_window" ConnectionWindow (at REGISTER "register");
+    "connection_timeout" ConnectionTimeout (at REGISTER "register");
+    "connection" Connection (at REGISTER "register");
+    "power_limit" PowerLimit (at REGISTER "register");
+    "power_limit_window" PowerLimitWindow (at REGISTER "register");
+    "power_limit_timeout" PowerLimitTimeout (at REGISTER "register");
+    "power_limit_ramp_time" PowerLimitRampTime (at REGISTER "register");
+    "power_limit_enabled" PowerLimitEnabled (at REGISTER "register");
+    "power_factor_setpoint" PowerFactorSetpoint (at REGISTER "register");
+    "power_factor_window" PowerFactorWindow (at REGISTER "register");
+    "power_factor_timeout" PowerFactorTimeout (at REGISTER "register");
+    "power_factor_ramp_time" PowerFactorRampTime (at REGISTER "register");
+    "power_factor_enabled" PowerFactorEnabled (at REGISTER "register");
+    "reactive_power_of_maximum_power" ReactivePowerOfMaximumPower (at REGISTER "register");
+    "reactive_power_of_maximum" ReactivePowerOfMaximum (at REGISTER "register");
+    "reactive_power_of_available" ReactivePowerOfAvailable (at REGISTER "register");
+    "reactive_power_window" ReactivePowerWindow (at REGISTER "register");
+    "reactive_power_timeout" ReactivePowerTimeout (at REGISTER "register");
+    "reactive_power_ramp_time" ReactivePowerRampTime (at REGISTER "register");
+    "reactive_power_mode" ReactivePowerMode (at REGISTER "register");
+    "reactive_power_enabled" ReactivePowerEnabled (at REGISTER "register");
+    "power_limit_exponent" PowerLimitExponent (at REGISTER "register");
+    "power_factor_setpoint_exponent" PowerFactorSetpointExponent (at REGISTER "register");
+    "reactive_power_percent_exponent" ReactivePowerPercentExponent (at REGISTER "register");
+    "module_current_exponent" ModuleCurrentExponent (at REGISTER "register");
+    "module_voltage_exponent" ModuleVoltageExponent (at REGISTER "register");
+    "module_power_exponent" ModulePowerExponent (at REGISTER "register");
+    "module_energy_exponent" ModuleEnergyExponent (at REGISTER "register");
+    "module_global_events" ModuleGlobalEvents (at REGISTER "register");
+    "modules" Modules (at REGISTER "register");
+    "timestamp_period" TimestampPeriod (at REGISTER "register");
+    "module_input_index_1" ModuleInputIndex1 (at REGISTER "register");
+    "module_input_index_2" ModuleInputIndex2 (at REGISTER "register");
+    "module_name_index_1" ModuleNameIndex1 (text REGISTER "register");
+    "module_name_index_2" ModuleNameIndex2 (text REGISTER "register");
+    "module_current_index_1" ModuleCurrentIndex1 (at REGISTER "register");
+    "module_current_index_2" ModuleCurrentIndex2 (at REGISTER "register");
+    "module_voltage_index_1" ModuleVoltageIndex1 (at REGISTER "register");
+    "module_voltage_index_2" ModuleVoltageIndex2 (at REGISTER "register");
+    "module_power_index_1" ModulePowerIndex1 (at REGISTER "register");
+    "module_power_index_2" ModulePowerIndex2 (at REGISTER "register");
+    "module_energy_index_1" ModuleEnergyIndex1 (at REGISTER "register");
+    "module_energy_index_2" ModuleEnergyIndex2 (at REGISTER "register");
+    "module_timestamp_index_1" ModuleTimestampIndex1 (at REGISTER "register");
+    "module_timestamp_index_2" ModuleTimestampIndex2 (at REGISTER "register");
+    "module_temperature_index_1" ModuleTemperatureIndex1 (at REGISTER "register");
+    "module_temperature_index_2" ModuleTemperatureIndex2 (at REGISTER "register");
+    "module_operating_state_index_1" ModuleOperatingStateIndex1 (at REGISTER "register");
+    "module_operating_state_index_2" ModuleOperatingStateIndex2 (at REGISTER "register");
+    "module_events_index_1" ModuleEventsIndex1 (at REGISTER "register");
+    "module_events_index_2" ModuleEventsIndex2 (at REGISTER "register");
+    "maximum_charge_power" MaximumChargePower (at REGISTER "register");
+    "charge_ramp_rate" ChargeRampRate (at REGISTER "register");
+    "discharge_ramp_rate" DischargeRampRate (at REGISTER "register");
+    "storage_control_mode" StorageControlMode (at REGISTER "register");
+    "maximum_charge_apparent_power" MaximumChargeApparentPower (at REGISTER "register");
+    "minimum_reserve" MinimumReserve (at REGISTER "register");
+    "state_of_charge" StateOfCharge (at REGISTER "register");
+    "available_charge" AvailableCharge (at REGISTER "register");
+    "battery_voltage" BatteryVoltage (at REGISTER "register");
+    "charge_state" ChargeState (at REGISTER "register");
+    "discharge_limit" DischargeLimit (at REGISTER "register");
+    "charge_limit" ChargeLimit (at REGISTER "register");
+    "storage_window" StorageWindow (at REGISTER "register");
+    "storage_timeout" StorageTimeout (at REGISTER "register");
+    "storage_ramp_time" StorageRampTime (at REGISTER "register");
+    "grid_charging" GridCharging (at REGISTER "register");
+    "maximum_charge_power_exponent" MaximumChargePowerExponent (at REGISTER "register");
+    "charge_ramp_rate_exponent" ChargeRampRateExponent (at REGISTER "register");
+    "maximum_charge_apparent_power_exponent" MaximumChargeApparentPowerExponent (at REGISTER "register");
+    "minimum_reserve_exponent" MinimumReserveExponent (at REGISTER "register");
+    "state_of_charge_exponent" StateOfChargeExponent (at REGISTER "register");
+    "available_charge_exponent" AvailableChargeExponent (at REGISTER "register");
+    "battery_voltage_exponent" BatteryVoltageExponent (at REGISTER "register");
+    "storage_limits_exponent" StorageLimitsExponent (at REGISTER "register");
+    "delete_data" DeleteData (at REGISTER "register");
+    "store_data" StoreData (at REGISTER "register");
+    "active_state_code" ActiveStateCode (at REGISTER "register");
+    "reset_all_event_flags" ResetAllEventFlags (at REGISTER "register");
+    "model_type" ModelType (at REGISTER "register");
+    "storage_restrictions_view_mode" StorageRestrictionsViewMode (at REGISTER "register");
+    "site_power" SitePower (at REGISTER "register");
+    "site_energy_of_day" SiteEnergyOfDay (at REGISTER "register");
+    "site_energy_of_year" SiteEnergyOfYear (at REGISTER "register");
+    "site_energy_total" SiteEnergyTotal (at REGISTER "register");
 } }
 
-table! { decode_plain decode_plain {
-    "active_energy" ActiveEnergy ();
-    "apparent_energy" ApparentEnergy ();
-    "reactive_energy_q1" ReactiveEnergyQ1 ();
-    "reactive_energy_q2" ReactiveEnergyQ2 ();
-    "reactive_energy_q3" ReactiveEnergyQ3 ();
-    "reactive_energy_q4" ReactiveEnergyQ4 ();
-    "delete_data" DeleteData ();
-    "store_data" StoreData ();
-    "active_state_code" ActiveStateCode ();
-    "reset_all_event_flags" ResetAllEventFlags ();
-    "model_type" ModelType ();
-    "storage_restrictions_view_mode" StorageRestrictionsViewMode ();
-    "site_power" SitePower ();
-    "site_energy_of_day" SiteEnergyOfDay ();
-    "site_energy_of_year" SiteEnergyOfYear ();
-    "site_energy_total" SiteEnergyTotal ();
+table! { read_by_read_text read_text {
+    "manufacturer" Manufacturer (wire);
+    "model" Model (wire);
+    "options" Options (wire);
+    "version" Version (wire);
+    "serial_number" SerialNumber (wire);
+    "time_source" TimeSource (wire);
+    "module_name_index_1" ModuleNameIndex1 (wire);
+    "module_name_index_2" ModuleNameIndex2 (wire);
 } }
 
 table! { decode_coded decode_coded {
@@ -286,109 +384,6 @@ table! { decode_coded decode_coded {
     "available_charge_exponent" AvailableChargeExponent ();
     "battery_voltage_exponent" BatteryVoltageExponent ();
     "storage_limits_exponent" StorageLimitsExponent ();
-} }
-
-table! { decode_mixed decode_count {
-} }
-
-table! { encode_count encode_count {
-} }
-
-table! { encode_plain encode_plain {
-    "delete_data" DeleteData ();
-    "store_data" StoreData ();
-    "reset_all_event_flags" ResetAllEventFlags ();
-    "model_type" ModelType ();
-    "storage_restrictions_view_mode" StorageRestrictionsViewMode ();
-} }
-
-table! { encode_coded encode_coded {
-    "connection_window" ConnectionWindow ();
-    "connection_timeout" ConnectionTimeout ();
-    "connection" Connection ();
-    "power_limit_window" PowerLimitWindow ();
-    "power_limit_timeout" PowerLimitTimeout ();
-    "power_limit_ramp_time" PowerLimitRampTime ();
-    "power_limit_enabled" PowerLimitEnabled ();
-    "power_factor_window" PowerFactorWindow ();
-    "power_factor_timeout" PowerFactorTimeout ();
-    "power_factor_ramp_time" PowerFactorRampTime ();
-    "power_factor_enabled" PowerFactorEnabled ();
-    "reactive_power_window" ReactivePowerWindow ();
-    "reactive_power_timeout" ReactivePowerTimeout ();
-    "reactive_power_ramp_time" ReactivePowerRampTime ();
-    "reactive_power_enabled" ReactivePowerEnabled ();
-    "storage_control_mode" StorageControlMode ();
-    "grid_charging" GridCharging ();
-} }
-
-table! { encode_mixed encode_count {
-} }
-
-table! { check check {
-    "maximum_power" MaximumPower (MaximumPower: maximum_power_exponent "maximum_power_exponent");
-    "reference_voltage" ReferenceVoltage (ReferenceVoltage: reference_voltage_exponent
-        "reference_voltage_exponent");
-    "reference_voltage_offset" ReferenceVoltageOffset (ReferenceVoltageOffset:
-        reference_voltage_offset_exponent "reference_voltage_offset_exponent");
-    "maximum_voltage" MaximumVoltage (MaximumVoltage: voltage_limits_exponent "voltage_limits_exponent");
-    "minimum_voltage" MinimumVoltage (MinimumVoltage: voltage_limits_exponent "voltage_limits_exponent");
-    "maximum_apparent_power" MaximumApparentPower (MaximumApparentPower: maximum_apparent_power_exponent
-        "maximum_apparent_power_exponent");
-    "power_limit" PowerLimit (PowerLimit: power_limit_exponent "power_limit_exponent");
-    "power_factor_setpoint" PowerFactorSetpoint (PowerFactorSetpoint: power_factor_setpoint_exponent
-        "power_factor_setpoint_exponent");
-    "reactive_power_of_maximum" ReactivePowerOfMaximum (ReactivePowerOfMaximum:
-        reactive_power_percent_exponent "reactive_power_percent_exponent");
-    "minimum_reserve" MinimumReserve (MinimumReserve: minimum_reserve_exponent "minimum_reserve_exponent");
-    "discharge_limit" DischargeLimit (DischargeLimit: storage_limits_exponent "storage_limits_exponent");
-    "charge_limit" ChargeLimit (ChargeLimit: storage_limits_exponent "storage_limits_exponent");
-    "delete_data" DeleteData ();
-    "store_data" StoreData ();
-    "reset_all_event_flags" ResetAllEventFlags ();
-    "model_type" ModelType ();
-    "storage_restrictions_view_mode" StorageRestrictionsViewMode ();
-    "connection_window" ConnectionWindow ();
-    "connection_timeout" ConnectionTimeout ();
-    "connection" Connection ();
-    "power_limit_window" PowerLimitWindow ();
-    "power_limit_timeout" PowerLimitTimeout ();
-    "power_limit_ramp_time" PowerLimitRampTime ();
-    "power_limit_enabled" PowerLimitEnabled ();
-    "power_factor_window" PowerFactorWindow ();
-    "power_factor_timeout" PowerFactorTimeout ();
-    "power_factor_ramp_time" PowerFactorRampTime ();
-    "power_factor_enabled" PowerFactorEnabled ();
-    "reactive_power_window" ReactivePowerWindow ();
-    "reactive_power_timeout" ReactivePowerTimeout ();
-    "reactive_power_ramp_time" ReactivePowerRampTime ();
-    "reactive_power_enabled" ReactivePowerEnabled ();
-    "storage_control_mode" StorageControlMode ();
-    "grid_charging" GridCharging ();
-} }
-
-table! { name name {
-    "operating_state" OperatingState (enum u16);
-    "vendor_operating_state" VendorOperatingState (enum u16);
-    "der_type" DerType (enum u16);
-    "reactive_power_action" ReactivePowerAction (enum u16);
-    "apparent_power_method" ApparentPowerMethod (enum u16);
-    "connected_phase" ConnectedPhase (enum u16);
-    "grid_connection" GridConnection (enum u16);
-    "connection" Connection (enum u16);
-    "power_limit_enabled" PowerLimitEnabled (enum u16);
-    "power_factor_enabled" PowerFactorEnabled (enum u16);
-    "reactive_power_mode" ReactivePowerMode (enum u16);
-    "reactive_power_enabled" ReactivePowerEnabled (enum u16);
-    "module_operating_state_index_1" OperatingState (enum u16);
-    "module_operating_state_index_2" OperatingState (enum u16);
-    "charge_state" ChargeState (enum u16);
-    "grid_charging" GridCharging (enum u16);
-    "delete_data" DeleteData (enum u16);
-    "store_data" StoreData (enum u16);
-    "reset_all_event_flags" ResetAllEventFlags (enum u16);
-    "model_type" ModelType (enum u16);
-    "storage_restrictions_view_mode" StorageRestrictionsViewMode (enum u16);
 } }
 
 table! { special special {
@@ -763,538 +758,6 @@ table! { special_name special_name {
     "storage_limits_exponent" StorageLimitsExponent (alone);
 } }
 
-table! { flag flag {
-    "events_1 ground_fault" Events1 (flag u32 ground_fault with_ground_fault);
-    "events_1 dc_over_voltage" Events1 (flag u32 dc_over_voltage with_dc_over_voltage);
-    "events_1 ac_disconnect" Events1 (flag u32 ac_disconnect with_ac_disconnect);
-    "events_1 dc_disconnect" Events1 (flag u32 dc_disconnect with_dc_disconnect);
-    "events_1 grid_disconnect" Events1 (flag u32 grid_disconnect with_grid_disconnect);
-    "events_1 cabinet_open" Events1 (flag u32 cabinet_open with_cabinet_open);
-    "events_1 manual_shutdown" Events1 (flag u32 manual_shutdown with_manual_shutdown);
-    "events_1 over_temperature" Events1 (flag u32 over_temperature with_over_temperature);
-    "events_1 over_frequency" Events1 (flag u32 over_frequency with_over_frequency);
-    "events_1 under_frequency" Events1 (flag u32 under_frequency with_under_frequency);
-    "events_1 ac_over_voltage" Events1 (flag u32 ac_over_voltage with_ac_over_voltage);
-    "events_1 ac_under_voltage" Events1 (flag u32 ac_under_voltage with_ac_under_voltage);
-    "events_1 blown_string_fuse" Events1 (flag u32 blown_string_fuse with_blown_string_fuse);
-    "events_1 under_temperature" Events1 (flag u32 under_temperature with_under_temperature);
-    "events_1 memory_loss" Events1 (flag u32 memory_loss with_memory_loss);
-    "events_1 hardware_test_failure" Events1 (flag u32 hardware_test_failure with_hardware_test_failure);
-    "pv_connection connected" PvConnection (flag u16 connected with_connected);
-    "pv_connection available" PvConnection (flag u16 available with_available);
-    "pv_connection operating" PvConnection (flag u16 operating with_operating);
-    "pv_connection test" PvConnection (flag u16 test with_test);
-    "storage_connection connected" StorageConnection (flag u16 connected with_connected);
-    "storage_connection available" StorageConnection (flag u16 available with_available);
-    "storage_connection operating" StorageConnection (flag u16 operating with_operating);
-    "storage_connection test" StorageConnection (flag u16 test with_test);
-    "active_controls fixed_power" ActiveControls (flag u32 fixed_power with_fixed_power);
-    "active_controls fixed_reactive_power" ActiveControls (flag u32 fixed_reactive_power
-        with_fixed_reactive_power);
-    "active_controls fixed_power_factor" ActiveControls (flag u32 fixed_power_factor
-        with_fixed_power_factor);
-    "storage_control_mode charge" StorageControlMode (flag u16 charge with_charge);
-    "storage_control_mode discharge" StorageControlMode (flag u16 discharge with_discharge);
-} }
-
-table! { flag_name flag_name {
-} }
-
-table! { bits bits {
-} }
-
-table! { words words {
-    "ac_current_exponent" AcCurrentExponent (alone);
-    "ac_voltage_exponent" AcVoltageExponent (alone);
-    "ac_power" AcPower (alone);
-    "ac_power_exponent" AcPowerExponent (alone);
-    "frequency_exponent" FrequencyExponent (alone);
-    "apparent_power" ApparentPower (alone);
-    "apparent_power_exponent" ApparentPowerExponent (alone);
-    "reactive_power" ReactivePower (alone);
-    "reactive_power_exponent" ReactivePowerExponent (alone);
-    "power_factor" PowerFactor (alone);
-    "power_factor_exponent" PowerFactorExponent (alone);
-    "lifetime_energy" LifetimeEnergy (alone);
-    "lifetime_energy_exponent" LifetimeEnergyExponent (alone);
-    "dc_current_exponent" DcCurrentExponent (alone);
-    "dc_voltage_exponent" DcVoltageExponent (alone);
-    "dc_power" DcPower (alone);
-    "dc_power_exponent" DcPowerExponent (alone);
-    "cabinet_temperature" CabinetTemperature (alone);
-    "heat_sink_temperature" HeatSinkTemperature (alone);
-    "transformer_temperature" TransformerTemperature (alone);
-    "other_temperature" OtherTemperature (alone);
-    "temperature_exponent" TemperatureExponent (alone);
-    "events_1" Events1 (alone);
-    "events_2" Events2 (alone);
-    "vendor_events_1" VendorEvents1 (alone);
-    "vendor_events_2" VendorEvents2 (alone);
-    "vendor_events_3" VendorEvents3 (alone);
-    "vendor_events_4" VendorEvents4 (alone);
-    "rated_power_exponent" RatedPowerExponent (alone);
-    "rated_apparent_power_exponent" RatedApparentPowerExponent (alone);
-    "rated_reactive_power_q1" RatedReactivePowerQ1 (alone);
-    "rated_reactive_power_q2" RatedReactivePowerQ2 (alone);
-    "rated_reactive_power_q3" RatedReactivePowerQ3 (alone);
-    "rated_reactive_power_q4" RatedReactivePowerQ4 (alone);
-    "rated_reactive_power_exponent" RatedReactivePowerExponent (alone);
-    "rated_current_exponent" RatedCurrentExponent (alone);
-    "rated_power_factor_q1" RatedPowerFactorQ1 (alone);
-    "rated_power_factor_q2" RatedPowerFactorQ2 (alone);
-    "rated_power_factor_q3" RatedPowerFactorQ3 (alone);
-    "rated_power_factor_q4" RatedPowerFactorQ4 (alone);
-    "rated_power_factor_exponent" RatedPowerFactorExponent (alone);
-    "rated_energy_exponent" RatedEnergyExponent (alone);
-    "rated_charge_exponent" RatedChargeExponent (alone);
-    "maximum_charge_rate_exponent" MaximumChargeRateExponent (alone);
-    "maximum_discharge_rate_exponent" MaximumDischargeRateExponent (alone);
-    "reference_voltage_offset" ReferenceVoltageOffset (alone);
-    "maximum_reactive_power_q1" MaximumReactivePowerQ1 (alone);
-    "maximum_reactive_power_q2" MaximumReactivePowerQ2 (alone);
-    "maximum_reactive_power_q3" MaximumReactivePowerQ3 (alone);
-    "maximum_reactive_power_q4" MaximumReactivePowerQ4 (alone);
-    "minimum_power_factor_q1" MinimumPowerFactorQ1 (alone);
-    "minimum_power_factor_q2" MinimumPowerFactorQ2 (alone);
-    "minimum_power_factor_q3" MinimumPowerFactorQ3 (alone);
-    "minimum_power_factor_q4" MinimumPowerFactorQ4 (alone);
-    "maximum_power_exponent" MaximumPowerExponent (alone);
-    "reference_voltage_exponent" ReferenceVoltageExponent (alone);
-    "reference_voltage_offset_exponent" ReferenceVoltageOffsetExponent (alone);
-    "voltage_limits_exponent" VoltageLimitsExponent (alone);
-    "maximum_apparent_power_exponent" MaximumApparentPowerExponent (alone);
-    "maximum_reactive_power_exponent" MaximumReactivePowerExponent (alone);
-    "power_ramp_rate_exponent" PowerRampRateExponent (alone);
-    "minimum_power_factor_exponent" MinimumPowerFactorExponent (alone);
-    "maximum_ramp_rate_exponent" MaximumRampRateExponent (alone);
-    "nominal_frequency_exponent" NominalFrequencyExponent (alone);
-    "active_energy" ActiveEnergy (alone);
-    "apparent_energy" ApparentEnergy (alone);
-    "reactive_energy_q1" ReactiveEnergyQ1 (alone);
-    "reactive_energy_q2" ReactiveEnergyQ2 (alone);
-    "reactive_energy_q3" ReactiveEnergyQ3 (alone);
-    "reactive_energy_q4" ReactiveEnergyQ4 (alone);
-    "available_reactive_power" AvailableReactivePower (alone);
-    "available_reactive_power_exponent" AvailableReactivePowerExponent (alone);
-    "available_power_exponent" AvailablePowerExponent (alone);
-    "limits_reached" LimitsReached (alone);
-    "active_controls" ActiveControls (alone);
-    "time" Time (alone);
-    "isolation_resistance_exponent" IsolationResistanceExponent (alone);
-    "power_factor_setpoint" PowerFactorSetpoint (alone);
-    "reactive_power_of_maximum_power" ReactivePowerOfMaximumPower (alone);
-    "reactive_power_of_maximum" ReactivePowerOfMaximum (alone);
-    "reactive_power_of_available" ReactivePowerOfAvailable (alone);
-    "power_limit_exponent" PowerLimitExponent (alone);
-    "power_factor_setpoint_exponent" PowerFactorSetpointExponent (alone);
-    "reactive_power_percent_exponent" ReactivePowerPercentExponent (alone);
-    "module_current_exponent" ModuleCurrentExponent (alone);
-    "module_voltage_exponent" ModuleVoltageExponent (alone);
-    "module_power_exponent" ModulePowerExponent (alone);
-    "module_energy_exponent" ModuleEnergyExponent (alone);
-    "module_global_events" ModuleGlobalEvents (alone);
-    "module_energy_index_1" ModuleEnergyIndex1 (alone);
-    "module_energy_index_2" ModuleEnergyIndex2 (alone);
-    "module_timestamp_index_1" ModuleTimestampIndex1 (alone);
-    "module_timestamp_index_2" ModuleTimestampIndex2 (alone);
-    "module_temperature_index_1" ModuleTemperatureIndex1 (alone);
-    "module_temperature_index_2" ModuleTemperatureIndex2 (alone);
-    "module_events_index_1" ModuleEventsIndex1 (alone);
-    "module_events_index_2" ModuleEventsIndex2 (alone);
-    "discharge_limit" DischargeLimit (alone);
-    "charge_limit" ChargeLimit (alone);
-    "maximum_charge_power_exponent" MaximumChargePowerExponent (alone);
-    "charge_ramp_rate_exponent" ChargeRampRateExponent (alone);
-    "maximum_charge_apparent_power_exponent" MaximumChargeApparentPowerExponent (alone);
-    "minimum_reserve_exponent" MinimumReserveExponent (alone);
-    "state_of_charge_exponent" StateOfChargeExponent (alone);
-    "available_charge_exponent" AvailableChargeExponent (alone);
-    "battery_voltage_exponent" BatteryVoltageExponent (alone);
-    "storage_limits_exponent" StorageLimitsExponent (alone);
-    "site_power" SitePower (alone);
-    "site_energy_of_day" SiteEnergyOfDay (alone);
-    "site_energy_of_year" SiteEnergyOfYear (alone);
-    "site_energy_total" SiteEnergyTotal (alone);
-} }
-
-table! { address address {
-    "manufacturer" Manufacturer (text REGISTER "register");
-    "model" Model (text REGISTER "register");
-    "options" Options (text REGISTER "register");
-    "version" Version (text REGISTER "register");
-    "serial_number" SerialNumber (text REGISTER "register");
-    "device_address" DeviceAddress (at REGISTER "register");
-    "ac_current" AcCurrent (at REGISTER "register");
-    "phase_a_current" PhaseACurrent (at REGISTER "register");
-    "phase_b_current" PhaseBCurrent (at REGISTER "register");
-    "phase_c_current" PhaseCCurrent (at REGISTER "register");
-    "ac_current_exponent" AcCurrentExponent (at REGISTER "register");
-    "phase_a_to_b_voltage" PhaseAToBVoltage (at REGISTER "register");
-    "phase_b_to_c_voltage" PhaseBToCVoltage (at REGISTER "register");
-    "phase_c_to_a_voltage" PhaseCToAVoltage (at REGISTER "register");
-    "phase_a_voltage" PhaseAVoltage (at REGISTER "register");
-    "phase_b_voltage" PhaseBVoltage (at REGISTER "register");
-    "phase_c_voltage" PhaseCVoltage (at REGISTER "register");
-    "ac_voltage_exponent" AcVoltageExponent (at REGISTER "register");
-    "ac_power" AcPower (at REGISTER "register");
-    "ac_power_exponent" AcPowerExponent (at REGISTER "register");
-    "frequency" Frequency (at REGISTER "register");
-    "frequency_exponent" FrequencyExponent (at REGISTER "register");
-    "apparent_power" ApparentPower (at REGISTER "register");
-    "apparent_power_exponent" ApparentPowerExponent (at REGISTER "register");
-    "reactive_power" ReactivePower (at REGISTER "register");
-    "reactive_power_exponent" ReactivePowerExponent (at REGISTER "register");
-    "power_factor" PowerFactor (at REGISTER "register");
-    "power_factor_exponent" PowerFactorExponent (at REGISTER "register");
-    "lifetime_energy" LifetimeEnergy (at REGISTER "register");
-    "lifetime_energy_exponent" LifetimeEnergyExponent (at REGISTER "register");
-    "dc_current" DcCurrent (at REGISTER "register");
-    "dc_current_exponent" DcCurrentExponent (at REGISTER "register");
-    "dc_voltage" DcVoltage (at REGISTER "register");
-    "dc_voltage_exponent" DcVoltageExponent (at REGISTER "register");
-    "dc_power" DcPower (at REGISTER "register");
-    "dc_power_exponent" DcPowerExponent (at REGISTER "register");
-    "cabinet_temperature" CabinetTemperature (at REGISTER "register");
-    "heat_sink_temperature" HeatSinkTemperature (at REGISTER "register");
-    "transformer_temperature" TransformerTemperature (at REGISTER "register");
-    "other_temperature" OtherTemperature (at REGISTER "register");
-    "temperature_exponent" TemperatureExponent (at REGISTER "register");
-    "operating_state" OperatingState (at REGISTER "register");
-    "vendor_operating_state" VendorOperatingState (at REGISTER "register");
-    "events_1" Events1 (at REGISTER "register");
-    "events_2" Events2 (at REGISTER "register");
-    "vendor_events_1" VendorEvents1 (at REGISTER "register");
-    "vendor_events_2" VendorEvents2 (at REGISTER "register");
-    "vendor_events_3" VendorEvents3 (at REGISTER "register");
-    "vendor_events_4" VendorEvents4 (at REGISTER "register");
-    "der_type" DerType (at REGISTER "register");
-    "rated_power" RatedPower (at REGISTER "register");
-    "rated_power_exponent" RatedPowerExponent (at REGISTER "register");
-    "rated_apparent_power" RatedApparentPower (at REGISTER "register");
-    "rated_apparent_power_exponent" RatedApparentPowerExponent (at REGISTER "register");
-    "rated_reactive_power_q1" RatedReactivePowerQ1 (at REGISTER "register");
-    "rated_reactive_power_q2" RatedReactivePowerQ2 (at REGISTER "register");
-    "rated_reactive_power_q3" RatedReactivePowerQ3 (at REGISTER "register");
-    "rated_reactive_power_q4" RatedReactivePowerQ4 (at REGISTER "register");
-    "rated_reactive_power_exponent" RatedReactivePowerExponent (at REGISTER "register");
-    "rated_current" RatedCurrent (at REGISTER "register");
-    "rated_current_exponent" RatedCurrentExponent (at REGISTER "register");
-    "rated_power_factor_q1" RatedPowerFactorQ1 (at REGISTER "register");
-    "rated_power_factor_q2" RatedPowerFactorQ2 (at REGISTER "register");
-    "rated_power_factor_q3" RatedPowerFactorQ3 (at REGISTER "register");
-    "rated_power_factor_q4" RatedPowerFactorQ4 (at REGISTER "register");
-    "rated_power_factor_exponent" RatedPowerFactorExponent (at REGISTER "register");
-    "rated_energy" RatedEnergy (at REGISTER "register");
-    "rated_energy_exponent" RatedEnergyExponent (at REGISTER "register");
-    "rated_charge" RatedCharge (at REGISTER "register");
-    "rated_charge_exponent" RatedChargeExponent (at REGISTER "register");
-    "maximum_charge_rate" MaximumChargeRate (at REGISTER "register");
-    "maximum_charge_rate_exponent" MaximumChargeRateExponent (at REGISTER "register");
-    "maximum_discharge_rate" MaximumDischargeRate (at REGISTER "register");
-    "maximum_discharge_rate_exponent" MaximumDischargeRateExponent (at REGISTER "register");
-    "maximum_power" MaximumPower (at REGISTER "register");
-    "reference_voltage" ReferenceVoltage (at REGISTER "register");
-    "reference_voltage_offset" ReferenceVoltageOffset (at REGISTER "register");
-    "maximum_voltage" MaximumVoltage (at REGISTER "register");
-    "minimum_voltage" MinimumVoltage (at REGISTER "register");
-    "maximum_apparent_power" MaximumApparentPower (at REGISTER "register");
-    "maximum_reactive_power_q1" MaximumReactivePowerQ1 (at REGISTER "register");
-    "maximum_reactive_power_q2" MaximumReactivePowerQ2 (at REGISTER "register");
-    "maximum_reactive_power_q3" MaximumReactivePowerQ3 (at REGISTER "register");
-    "maximum_reactive_power_q4" MaximumReactivePowerQ4 (at REGISTER "register");
-    "power_ramp_rate" PowerRampRate (at REGISTER "register");
-    "minimum_power_factor_q1" MinimumPowerFactorQ1 (at REGISTER "register");
-    "minimum_power_factor_q2" MinimumPowerFactorQ2 (at REGISTER "register");
-    "minimum_power_factor_q3" MinimumPowerFactorQ3 (at REGISTER "register");
-    "minimum_power_factor_q4" MinimumPowerFactorQ4 (at REGISTER "register");
-    "reactive_power_action" ReactivePowerAction (at REGISTER "register");
-    "apparent_power_method" ApparentPowerMethod (at REGISTER "register");
-    "maximum_ramp_rate" MaximumRampRate (at REGISTER "register");
-    "nominal_frequency" NominalFrequency (at REGISTER "register");
-    "connected_phase" ConnectedPhase (at REGISTER "register");
-    "maximum_power_exponent" MaximumPowerExponent (at REGISTER "register");
-    "reference_voltage_exponent" ReferenceVoltageExponent (at REGISTER "register");
-    "reference_voltage_offset_exponent" ReferenceVoltageOffsetExponent (at REGISTER "register");
-    "voltage_limits_exponent" VoltageLimitsExponent (at REGISTER "register");
-    "maximum_apparent_power_exponent" MaximumApparentPowerExponent (at REGISTER "register");
-    "maximum_reactive_power_exponent" MaximumReactivePowerExponent (at REGISTER "register");
-    "power_ramp_rate_exponent" PowerRampRateExponent (at REGISTER "register");
-    "minimum_power_factor_exponent" MinimumPowerFactorExponent (at REGISTER "register");
-    "maximum_ramp_rate_exponent" MaximumRampRateExponent (at REGISTER "register");
-    "nominal_frequency_exponent" NominalFrequencyExponent (at REGISTER "register");
-    "pv_connection" PvConnection (at REGISTER "register");
-    "storage_connection" StorageConnection (at REGISTER "register");
-    "grid_connection" GridConnection (at REGISTER "register");
-    "active_energy" ActiveEnergy (at REGISTER "register");
-    "apparent_energy" ApparentEnergy (at REGISTER "register");
-    "reactive_energy_q1" ReactiveEnergyQ1 (at REGISTER "register");
-    "reactive_energy_q2" ReactiveEnergyQ2 (at REGISTER "register");
-    "reactive_energy_q3" ReactiveEnergyQ3 (at REGISTER "register");
-    "reactive_energy_q4" ReactiveEnergyQ4 (at REGISTER "register");
-    "available_reactive_power" AvailableReactivePower (at REGISTER "register");
-    "available_reactive_power_exponent" AvailableReactivePowerExponent (at REGISTER "register");
-    "available_power" AvailablePower (at REGISTER "register");
-    "available_power_exponent" AvailablePowerExponent (at REGISTER "register");
-    "limits_reached" LimitsReached (at REGISTER "register");
-    "active_controls" ActiveControls (at REGISTER "register");
-    "time_source" TimeSource (text REGISTER "register");
-    "time" Time (at REGISTER "register");
-    "ride_through_status" RideThroughStatus (at REGISTER "register");
-    "isolation_resistance" IsolationResistance (at REGISTER "register");
-    "isolation_resistance_exponent" IsolationResistanceExponent (at REGISTER "register");
-    "connection_window" ConnectionWindow (at REGISTER "register");
-    "connection_timeout" ConnectionTimeout (at REGISTER "register");
-    "connection" Connection (at REGISTER "register");
-    "power_limit" PowerLimit (at REGISTER "register");
-    "power_limit_window" PowerLimitWindow (at REGISTER "register");
-    "power_limit_timeout" PowerLimitTimeout (at REGISTER "register");
-    "power_limit_ramp_time" PowerLimitRampTime (at REGISTER "register");
-    "power_limit_enabled" PowerLimitEnabled (at REGISTER "register");
-    "power_factor_setpoint" PowerFactorSetpoint (at REGISTER "register");
-    "power_factor_window" PowerFactorWindow (at REGISTER "register");
-    "power_factor_timeout" PowerFactorTimeout (at REGISTER "register");
-    "power_factor_ramp_time" PowerFactorRampTime (at REGISTER "register");
-    "power_factor_enabled" PowerFactorEnabled (at REGISTER "register");
-    "reactive_power_of_maximum_power" ReactivePowerOfMaximumPower (at REGISTER "register");
-    "reactive_power_of_maximum" ReactivePowerOfMaximum (at REGISTER "register");
-    "reactive_power_of_available" ReactivePowerOfAvailable (at REGISTER "register");
-    "reactive_power_window" ReactivePowerWindow (at REGISTER "register");
-    "reactive_power_timeout" ReactivePowerTimeout (at REGISTER "register");
-    "reactive_power_ramp_time" ReactivePowerRampTime (at REGISTER "register");
-    "reactive_power_mode" ReactivePowerMode (at REGISTER "register");
-    "reactive_power_enabled" ReactivePowerEnabled (at REGISTER "register");
-    "power_limit_exponent" PowerLimitExponent (at REGISTER "register");
-    "power_factor_setpoint_exponent" PowerFactorSetpointExponent (at REGISTER "register");
-    "reactive_power_percent_exponent" ReactivePowerPercentExponent (at REGISTER "register");
-    "module_current_exponent" ModuleCurrentExponent (at REGISTER "register");
-    "module_voltage_exponent" ModuleVoltageExponent (at REGISTER "register");
-    "module_power_exponent" ModulePowerExponent (at REGISTER "register");
-    "module_energy_exponent" ModuleEnergyExponent (at REGISTER "register");
-    "module_global_events" ModuleGlobalEvents (at REGISTER "register");
-    "modules" Modules (at REGISTER "register");
-    "timestamp_period" TimestampPeriod (at REGISTER "register");
-    "module_input_index_1" ModuleInputIndex1 (at REGISTER "register");
-    "module_input_index_2" ModuleInputIndex2 (at REGISTER "register");
-    "module_name_index_1" ModuleNameIndex1 (text REGISTER "register");
-    "module_name_index_2" ModuleNameIndex2 (text REGISTER "register");
-    "module_current_index_1" ModuleCurrentIndex1 (at REGISTER "register");
-    "module_current_index_2" ModuleCurrentIndex2 (at REGISTER "register");
-    "module_voltage_index_1" ModuleVoltageIndex1 (at REGISTER "register");
-    "module_voltage_index_2" ModuleVoltageIndex2 (at REGISTER "register");
-    "module_power_index_1" ModulePowerIndex1 (at REGISTER "register");
-    "module_power_index_2" ModulePowerIndex2 (at REGISTER "register");
-    "module_energy_index_1" ModuleEnergyIndex1 (at REGISTER "register");
-    "module_energy_index_2" ModuleEnergyIndex2 (at REGISTER "register");
-    "module_timestamp_index_1" ModuleTimestampIndex1 (at REGISTER "register");
-    "module_timestamp_index_2" ModuleTimestampIndex2 (at REGISTER "register");
-    "module_temperature_index_1" ModuleTemperatureIndex1 (at REGISTER "register");
-    "module_temperature_index_2" ModuleTemperatureIndex2 (at REGISTER "register");
-    "module_operating_state_index_1" ModuleOperatingStateIndex1 (at REGISTER "register");
-    "module_operating_state_index_2" ModuleOperatingStateIndex2 (at REGISTER "register");
-    "module_events_index_1" ModuleEventsIndex1 (at REGISTER "register");
-    "module_events_index_2" ModuleEventsIndex2 (at REGISTER "register");
-    "maximum_charge_power" MaximumChargePower (at REGISTER "register");
-    "charge_ramp_rate" ChargeRampRate (at REGISTER "register");
-    "discharge_ramp_rate" DischargeRampRate (at REGISTER "register");
-    "storage_control_mode" StorageControlMode (at REGISTER "register");
-    "maximum_charge_apparent_power" MaximumChargeApparentPower (at REGISTER "register");
-    "minimum_reserve" MinimumReserve (at REGISTER "register");
-    "state_of_charge" StateOfCharge (at REGISTER "register");
-    "available_charge" AvailableCharge (at REGISTER "register");
-    "battery_voltage" BatteryVoltage (at REGISTER "register");
-    "charge_state" ChargeState (at REGISTER "register");
-    "discharge_limit" DischargeLimit (at REGISTER "register");
-    "charge_limit" ChargeLimit (at REGISTER "register");
-    "storage_window" StorageWindow (at REGISTER "register");
-    "storage_timeout" StorageTimeout (at REGISTER "register");
-    "storage_ramp_time" StorageRampTime (at REGISTER "register");
-    "grid_charging" GridCharging (at REGISTER "register");
-    "maximum_charge_power_exponent" MaximumChargePowerExponent (at REGISTER "register");
-    "charge_ramp_rate_exponent" ChargeRampRateExponent (at REGISTER "register");
-    "maximum_charge_apparent_power_exponent" MaximumChargeApparentPowerExponent (at REGISTER "register");
-    "minimum_reserve_exponent" MinimumReserveExponent (at REGISTER "register");
-    "state_of_charge_exponent" StateOfChargeExponent (at REGISTER "register");
-    "available_charge_exponent" AvailableChargeExponent (at REGISTER "register");
-    "battery_voltage_exponent" BatteryVoltageExponent (at REGISTER "register");
-    "storage_limits_exponent" StorageLimitsExponent (at REGISTER "register");
-    "delete_data" DeleteData (at REGISTER "register");
-    "store_data" StoreData (at REGISTER "register");
-    "active_state_code" ActiveStateCode (at REGISTER "register");
-    "reset_all_event_flags" ResetAllEventFlags (at REGISTER "register");
-    "model_type" ModelType (at REGISTER "register");
-    "storage_restrictions_view_mode" StorageRestrictionsViewMode (at REGISTER "register");
-    "site_power" SitePower (at REGISTER "register");
-    "site_energy_of_day" SiteEnergyOfDay (at REGISTER "register");
-    "site_energy_of_year" SiteEnergyOfYear (at REGISTER "register");
-    "site_energy_total" SiteEnergyTotal (at REGISTER "register");
-} }
-
-table! { symbol symbol {
-    "ac_current" AcCurrent (alone);
-    "phase_a_current" PhaseACurrent (alone);
-    "phase_b_current" PhaseBCurrent (alone);
-    "phase_c_current" PhaseCCurrent (alone);
-    "phase_a_to_b_voltage" PhaseAToBVoltage (alone);
-    "phase_b_to_c_voltage" PhaseBToCVoltage (alone);
-    "phase_c_to_a_voltage" PhaseCToAVoltage (alone);
-    "phase_a_voltage" PhaseAVoltage (alone);
-    "phase_b_voltage" PhaseBVoltage (alone);
-    "phase_c_voltage" PhaseCVoltage (alone);
-    "ac_power" AcPower (alone);
-    "frequency" Frequency (alone);
-    "apparent_power" ApparentPower (alone);
-    "reactive_power" ReactivePower (alone);
-    "power_factor" PowerFactor (alone);
-    "lifetime_energy" LifetimeEnergy (alone);
-    "dc_current" DcCurrent (alone);
-    "dc_voltage" DcVoltage (alone);
-    "dc_power" DcPower (alone);
-    "cabinet_temperature" CabinetTemperature (alone);
-    "heat_sink_temperature" HeatSinkTemperature (alone);
-    "transformer_temperature" TransformerTemperature (alone);
-    "other_temperature" OtherTemperature (alone);
-    "rated_power" RatedPower (alone);
-    "rated_apparent_power" RatedApparentPower (alone);
-    "rated_reactive_power_q1" RatedReactivePowerQ1 (alone);
-    "rated_reactive_power_q2" RatedReactivePowerQ2 (alone);
-    "rated_reactive_power_q3" RatedReactivePowerQ3 (alone);
-    "rated_reactive_power_q4" RatedReactivePowerQ4 (alone);
-    "rated_current" RatedCurrent (alone);
-    "rated_energy" RatedEnergy (alone);
-    "rated_charge" RatedCharge (alone);
-    "maximum_charge_rate" MaximumChargeRate (alone);
-    "maximum_discharge_rate" MaximumDischargeRate (alone);
-    "maximum_power" MaximumPower (alone);
-    "reference_voltage" ReferenceVoltage (alone);
-    "reference_voltage_offset" ReferenceVoltageOffset (alone);
-    "maximum_voltage" MaximumVoltage (alone);
-    "minimum_voltage" MinimumVoltage (alone);
-    "maximum_apparent_power" MaximumApparentPower (alone);
-    "maximum_reactive_power_q1" MaximumReactivePowerQ1 (alone);
-    "maximum_reactive_power_q2" MaximumReactivePowerQ2 (alone);
-    "maximum_reactive_power_q3" MaximumReactivePowerQ3 (alone);
-    "maximum_reactive_power_q4" MaximumReactivePowerQ4 (alone);
-    "power_ramp_rate" PowerRampRate (alone);
-    "maximum_ramp_rate" MaximumRampRate (alone);
-    "nominal_frequency" NominalFrequency (alone);
-    "active_energy" ActiveEnergy (alone);
-    "apparent_energy" ApparentEnergy (alone);
-    "reactive_energy_q1" ReactiveEnergyQ1 (alone);
-    "reactive_energy_q2" ReactiveEnergyQ2 (alone);
-    "reactive_energy_q3" ReactiveEnergyQ3 (alone);
-    "reactive_energy_q4" ReactiveEnergyQ4 (alone);
-    "available_reactive_power" AvailableReactivePower (alone);
-    "available_power" AvailablePower (alone);
-    "time" Time (alone);
-    "isolation_resistance" IsolationResistance (alone);
-    "connection_window" ConnectionWindow (alone);
-    "connection_timeout" ConnectionTimeout (alone);
-    "power_limit" PowerLimit (alone);
-    "power_limit_window" PowerLimitWindow (alone);
-    "power_limit_timeout" PowerLimitTimeout (alone);
-    "power_limit_ramp_time" PowerLimitRampTime (alone);
-    "power_factor_window" PowerFactorWindow (alone);
-    "power_factor_timeout" PowerFactorTimeout (alone);
-    "power_factor_ramp_time" PowerFactorRampTime (alone);
-    "reactive_power_of_maximum_power" ReactivePowerOfMaximumPower (alone);
-    "reactive_power_of_maximum" ReactivePowerOfMaximum (alone);
-    "reactive_power_of_available" ReactivePowerOfAvailable (alone);
-    "reactive_power_window" ReactivePowerWindow (alone);
-    "reactive_power_timeout" ReactivePowerTimeout (alone);
-    "reactive_power_ramp_time" ReactivePowerRampTime (alone);
-    "module_current_index_1" ModuleCurrentIndex1 (alone);
-    "module_current_index_2" ModuleCurrentIndex2 (alone);
-    "module_voltage_index_1" ModuleVoltageIndex1 (alone);
-    "module_voltage_index_2" ModuleVoltageIndex2 (alone);
-    "module_power_index_1" ModulePowerIndex1 (alone);
-    "module_power_index_2" ModulePowerIndex2 (alone);
-    "module_energy_index_1" ModuleEnergyIndex1 (alone);
-    "module_energy_index_2" ModuleEnergyIndex2 (alone);
-    "module_timestamp_index_1" ModuleTimestampIndex1 (alone);
-    "module_timestamp_index_2" ModuleTimestampIndex2 (alone);
-    "module_temperature_index_1" ModuleTemperatureIndex1 (alone);
-    "module_temperature_index_2" ModuleTemperatureIndex2 (alone);
-    "maximum_charge_power" MaximumChargePower (alone);
-    "charge_ramp_rate" ChargeRampRate (alone);
-    "discharge_ramp_rate" DischargeRampRate (alone);
-    "maximum_charge_apparent_power" MaximumChargeApparentPower (alone);
-    "minimum_reserve" MinimumReserve (alone);
-    "state_of_charge" StateOfCharge (alone);
-    "available_charge" AvailableCharge (alone);
-    "battery_voltage" BatteryVoltage (alone);
-    "discharge_limit" DischargeLimit (alone);
-    "charge_limit" ChargeLimit (alone);
-    "storage_window" StorageWindow (alone);
-    "storage_timeout" StorageTimeout (alone);
-    "storage_ramp_time" StorageRampTime (alone);
-    "site_power" SitePower (alone);
-    "site_energy_of_day" SiteEnergyOfDay (alone);
-    "site_energy_of_year" SiteEnergyOfYear (alone);
-    "site_energy_total" SiteEnergyTotal (alone);
-} }
-
-table! { place place {
-    "manufacturer" Manufacturer (alone);
-    "model" Model (alone);
-    "options" Options (alone);
-    "version" Version (alone);
-    "serial_number" SerialNumber (alone);
-    "time_source" TimeSource (alone);
-    "module_current_exponent" ModuleCurrentExponent (alone);
-    "module_voltage_exponent" ModuleVoltageExponent (alone);
-    "module_power_exponent" ModulePowerExponent (alone);
-    "module_energy_exponent" ModuleEnergyExponent (alone);
-    "module_global_events" ModuleGlobalEvents (alone);
-    "modules" Modules (alone);
-    "timestamp_period" TimestampPeriod (alone);
-    "module_input_index_1" ModuleInputIndex1 (alone);
-    "module_input_index_2" ModuleInputIndex2 (alone);
-    "module_name_index_1" ModuleNameIndex1 (alone);
-    "module_name_index_2" ModuleNameIndex2 (alone);
-    "module_current_index_1" ModuleCurrentIndex1 (alone);
-    "module_current_index_2" ModuleCurrentIndex2 (alone);
-    "module_voltage_index_1" ModuleVoltageIndex1 (alone);
-    "module_voltage_index_2" ModuleVoltageIndex2 (alone);
-    "module_power_index_1" ModulePowerIndex1 (alone);
-    "module_power_index_2" ModulePowerIndex2 (alone);
-    "module_energy_index_1" ModuleEnergyIndex1 (alone);
-    "module_energy_index_2" ModuleEnergyIndex2 (alone);
-    "module_timestamp_index_1" ModuleTimestampIndex1 (alone);
-    "module_timestamp_index_2" ModuleTimestampIndex2 (alone);
-    "module_temperature_index_1" ModuleTemperatureIndex1 (alone);
-    "module_temperature_index_2" ModuleTemperatureIndex2 (alone);
-    "module_operating_state_index_1" ModuleOperatingStateIndex1 (alone);
-    "module_operating_state_index_2" ModuleOperatingStateIndex2 (alone);
-    "module_events_index_1" ModuleEventsIndex1 (alone);
-    "module_events_index_2" ModuleEventsIndex2 (alone);
-} }
-
-table! { epoch epoch {
-    "time" Time (alone);
-} }
-
-table! { text_decode text_decode {
-    "manufacturer" Manufacturer (sizes 32 16);
-    "model" Model (sizes 32 16);
-    "options" Options (sizes 16 8);
-    "version" Version (sizes 16 8);
-    "serial_number" SerialNumber (sizes 32 16);
-    "time_source" TimeSource (sizes 8 4);
-    "module_name_index_1" ModuleNameIndex1 (sizes 16 8);
-    "module_name_index_2" ModuleNameIndex2 (sizes 16 8);
-} }
-
-table! { read_by_read_text read_text {
-    "manufacturer" Manufacturer (wire);
-    "model" Model (wire);
-    "options" Options (wire);
-    "version" Version (wire);
-    "serial_number" SerialNumber (wire);
-    "time_source" TimeSource (wire);
-    "module_name_index_1" ModuleNameIndex1 (wire);
-    "module_name_index_2" ModuleNameIndex2 (wire);
-} }
-
 table! { read_by_read read {
     "device_address" DeviceAddress (wire);
     "ac_current" AcCurrent (wire);
@@ -1499,6 +962,474 @@ table! { read_by_read read {
     "site_energy_total" SiteEnergyTotal (wire);
 } }
 
+table! { decode decode {
+    "ac_current" AcCurrent (AcCurrent: ac_current_exponent "ac_current_exponent");
+    "phase_a_current" PhaseACurrent (PhaseACurrent: ac_current_exponent "ac_current_exponent");
+    "phase_b_current" PhaseBCurrent (PhaseBCurrent: ac_current_exponent "ac_current_exponent");
+    "phase_c_current" PhaseCCurrent (PhaseCCurrent: ac_current_exponent "ac_current_exponent");
+    "phase_a_to_b_voltage" PhaseAToBVoltage (PhaseAToBVoltage: ac_voltage_exponent "ac_voltage_exponent");
+    "phase_b_to_c_voltage" PhaseBToCVoltage (PhaseBToCVoltage: ac_voltage_exponent "ac_voltage_exponent");
+    "phase_c_to_a_voltage" PhaseCToAVoltage (PhaseCToAVoltage: ac_voltage_exponent "ac_voltage_exponent");
+    "phase_a_voltage" PhaseAVoltage (PhaseAVoltage: ac_voltage_exponent "ac_voltage_exponent");
+    "phase_b_voltage" PhaseBVoltage (PhaseBVoltage: ac_voltage_exponent "ac_voltage_exponent");
+    "phase_c_voltage" PhaseCVoltage (PhaseCVoltage: ac_voltage_exponent "ac_voltage_exponent");
+    "ac_power" AcPower (AcPower: ac_power_exponent "ac_power_exponent");
+    "frequency" Frequency (Frequency: frequency_exponent "frequency_exponent");
+    "apparent_power" ApparentPower (ApparentPower: apparent_power_exponent "apparent_power_exponent");
+    "reactive_power" ReactivePower (ReactivePower: reactive_power_exponent "reactive_power_exponent");
+    "power_factor" PowerFactor (PowerFactor: power_factor_exponent "power_factor_exponent");
+    "lifetime_energy" LifetimeEnergy (LifetimeEnergy: lifetime_energy_exponent "lifetime_energy_exponent");
+    "dc_current" DcCurrent (DcCurrent: dc_current_exponent "dc_current_exponent");
+    "dc_voltage" DcVoltage (DcVoltage: dc_voltage_exponent "dc_voltage_exponent");
+    "dc_power" DcPower (DcPower: dc_power_exponent "dc_power_exponent");
+    "cabinet_temperature" CabinetTemperature (CabinetTemperature: temperature_exponent
+        "temperature_exponent");
+    "heat_sink_temperature" HeatSinkTemperature (HeatSinkTemperature: temperature_exponent
+        "temperature_exponent");
+    "transformer_temperature" TransformerTemperature (TransformerTemperature: temperature_exponent
+        "temperature_exponent");
+    "other_temperature" OtherTemperature (OtherTemperature: temperature_exponent "temperature_exponent");
+    "rated_power" RatedPower (RatedPower: rated_power_exponent "rated_power_exponent");
+    "rated_apparent_power" RatedApparentPower (RatedApparentPower: rated_apparent_power_exponent
+        "rated_apparent_power_exponent");
+    "rated_reactive_power_q1" RatedReactivePowerQ1 (RatedReactivePowerQ1: rated_reactive_power_exponent
+        "rated_reactive_power_exponent");
+    "rated_reactive_power_q2" RatedReactivePowerQ2 (RatedReactivePowerQ2: rated_reactive_power_exponent
+        "rated_reactive_power_exponent");
+    "rated_reactive_power_q3" RatedReactivePowerQ3 (RatedReactivePowerQ3: rated_reactive_power_exponent
+        "rated_reactive_power_exponent");
+    "rated_reactive_power_q4" RatedReactivePowerQ4 (RatedReactivePowerQ4: rated_reactive_power_exponent
+        "rated_reactive_power_exponent");
+    "rated_current" RatedCurrent (RatedCurrent: rated_current_exponent "rated_current_exponent");
+    "rated_power_factor_q1" RatedPowerFactorQ1 (RatedPowerFactorQ1: rated_power_factor_exponent
+        "rated_power_factor_exponent");
+    "rated_power_factor_q2" RatedPowerFactorQ2 (RatedPowerFactorQ2: rated_power_factor_exponent
+        "rated_power_factor_exponent");
+    "rated_power_factor_q3" RatedPowerFactorQ3 (RatedPowerFactorQ3: rated_power_factor_exponent
+        "rated_power_factor_exponent");
+    "rated_power_factor_q4" RatedPowerFactorQ4 (RatedPowerFactorQ4: rated_power_factor_exponent
+        "rated_power_factor_exponent");
+    "rated_energy" RatedEnergy (RatedEnergy: rated_energy_exponent "rated_energy_exponent");
+    "rated_charge" RatedCharge (RatedCharge: rated_charge_exponent "rated_charge_exponent");
+    "maximum_charge_rate" MaximumChargeRate (MaximumChargeRate: maximum_charge_rate_exponent
+        "maximum_charge_rate_exponent");
+    "maximum_discharge_rate" MaximumDischargeRate (MaximumDischargeRate: maximum_discharge_rate_exponent
+        "maximum_discharge_rate_exponent");
+    "maximum_power" MaximumPower (MaximumPower: maximum_power_exponent "maximum_power_exponent");
+    "reference_voltage" ReferenceVoltage (ReferenceVoltage: reference_voltage_exponent
+        "reference_voltage_exponent");
+    "reference_voltage_offset" ReferenceVoltageOffset (ReferenceVoltageOffset:
+        reference_voltage_offset_exponent "reference_voltage_offset_exponent");
+    "maximum_voltage" MaximumVoltage (MaximumVoltage: voltage_limits_exponent "voltage_limits_exponent");
+    "minimum_voltage" MinimumVoltage (MinimumVoltage: voltage_limits_exponent "voltage_limits_exponent");
+    "maximum_apparent_power" MaximumApparentPower (MaximumApparentPower: maximum_apparent_power_exponent
+        "maximum_apparent_power_exponent");
+    "maximum_reactive_power_q1" MaximumReactivePowerQ1 (MaximumReactivePowerQ1:
+        maximum_reactive_power_exponent "maximum_reactive_power_exponent");
+    "maximum_reactive_power_q2" MaximumReactivePowerQ2 (MaximumReactivePowerQ2:
+        maximum_reactive_power_exponent "maximum_reactive_power_exponent");
+    "maximum_reactive_power_q3" MaximumReactivePowerQ3 (MaximumReactivePowerQ3:
+        maximum_reactive_power_exponent "maximum_reactive_power_exponent");
+    "maximum_reactive_power_q4" MaximumReactivePowerQ4 (MaximumReactivePowerQ4:
+        maximum_reactive_power_exponent "maximum_reactive_power_exponent");
+    "power_ramp_rate" PowerRampRate (PowerRampRate: power_ramp_rate_exponent "power_ramp_rate_exponent");
+    "minimum_power_factor_q1" MinimumPowerFactorQ1 (MinimumPowerFactorQ1: minimum_power_factor_exponent
+        "minimum_power_factor_exponent");
+    "minimum_power_factor_q2" MinimumPowerFactorQ2 (MinimumPowerFactorQ2: minimum_power_factor_exponent
+        "minimum_power_factor_exponent");
+    "minimum_power_factor_q3" MinimumPowerFactorQ3 (MinimumPowerFactorQ3: minimum_power_factor_exponent
+        "minimum_power_factor_exponent");
+    "minimum_power_factor_q4" MinimumPowerFactorQ4 (MinimumPowerFactorQ4: minimum_power_factor_exponent
+        "minimum_power_factor_exponent");
+    "maximum_ramp_rate" MaximumRampRate (MaximumRampRate: maximum_ramp_rate_exponent
+        "maximum_ramp_rate_exponent");
+    "nominal_frequency" NominalFrequency (NominalFrequency: nominal_frequency_exponent
+        "nominal_frequency_exponent");
+    "available_reactive_power" AvailableReactivePower (AvailableReactivePower:
+        available_reactive_power_exponent "available_reactive_power_exponent");
+    "available_power" AvailablePower (AvailablePower: available_power_exponent "available_power_exponent");
+    "isolation_resistance" IsolationResistance (IsolationResistance: isolation_resistance_exponent
+        "isolation_resistance_exponent");
+    "power_limit" PowerLimit (PowerLimit: power_limit_exponent "power_limit_exponent");
+    "power_factor_setpoint" PowerFactorSetpoint (PowerFactorSetpoint: power_factor_setpoint_exponent
+        "power_factor_setpoint_exponent");
+    "reactive_power_of_maximum_power" ReactivePowerOfMaximumPower (ReactivePowerOfMaximumPower:
+        reactive_power_percent_exponent "reactive_power_percent_exponent");
+    "reactive_power_of_maximum" ReactivePowerOfMaximum (ReactivePowerOfMaximum:
+        reactive_power_percent_exponent "reactive_power_percent_exponent");
+    "reactive_power_of_available" ReactivePowerOfAvailable (ReactivePowerOfAvailable:
+        reactive_power_percent_exponent "reactive_power_percent_exponent");
+    "module_current_index_1" ModuleCurrentIndex1 (ModuleCurrentIndex1: module_current_exponent
+        "module_current_exponent");
+    "module_current_index_2" ModuleCurrentIndex2 (ModuleCurrentIndex2: module_current_exponent
+        "module_current_exponent");
+    "module_voltage_index_1" ModuleVoltageIndex1 (ModuleVoltageIndex1: module_voltage_exponent
+        "module_voltage_exponent");
+    "module_voltage_index_2" ModuleVoltageIndex2 (ModuleVoltageIndex2: module_voltage_exponent
+        "module_voltage_exponent");
+    "module_power_index_1" ModulePowerIndex1 (ModulePowerIndex1: module_power_exponent
+        "module_power_exponent");
+    "module_power_index_2" ModulePowerIndex2 (ModulePowerIndex2: module_power_exponent
+        "module_power_exponent");
+    "module_energy_index_1" ModuleEnergyIndex1 (ModuleEnergyIndex1: module_energy_exponent
+        "module_energy_exponent");
+    "module_energy_index_2" ModuleEnergyIndex2 (ModuleEnergyIndex2: module_energy_exponent
+        "module_energy_exponent");
+    "maximum_charge_power" MaximumChargePower (MaximumChargePower: maximum_charge_power_exponent
+        "maximum_charge_power_exponent");
+    "charge_ramp_rate" ChargeRampRate (ChargeRampRate: charge_ramp_rate_exponent
+        "charge_ramp_rate_exponent");
+    "discharge_ramp_rate" DischargeRampRate (DischargeRampRate: charge_ramp_rate_exponent
+        "charge_ramp_rate_exponent");
+    "maximum_charge_apparent_power" MaximumChargeApparentPower (MaximumChargeApparentPower:
+        maximum_charge_apparent_power_exponent "maximum_charge_apparent_power_exponent");
+    "minimum_reserve" MinimumReserve (MinimumReserve: minimum_reserve_exponent "minimum_reserve_exponent");
+    "state_of_charge" StateOfCharge (StateOfCharge: state_of_charge_exponent "state_of_charge_exponent");
+    "available_charge" AvailableCharge (AvailableCharge: available_charge_exponent
+        "available_charge_exponent");
+    "battery_voltage" BatteryVoltage (BatteryVoltage: battery_voltage_exponent "battery_voltage_exponent");
+    "discharge_limit" DischargeLimit (DischargeLimit: storage_limits_exponent "storage_limits_exponent");
+    "charge_limit" ChargeLimit (ChargeLimit: storage_limits_exponent "storage_limits_exponent");
+} }
+
+table! { symbol symbol {
+    "ac_current" AcCurrent (alone);
+    "phase_a_current" PhaseACurrent (alone);
+    "phase_b_current" PhaseBCurrent (alone);
+    "phase_c_current" PhaseCCurrent (alone);
+    "phase_a_to_b_voltage" PhaseAToBVoltage (alone);
+    "phase_b_to_c_voltage" PhaseBToCVoltage (alone);
+    "phase_c_to_a_voltage" PhaseCToAVoltage (alone);
+    "phase_a_voltage" PhaseAVoltage (alone);
+    "phase_b_voltage" PhaseBVoltage (alone);
+    "phase_c_voltage" PhaseCVoltage (alone);
+    "ac_power" AcPower (alone);
+    "frequency" Frequency (alone);
+    "apparent_power" ApparentPower (alone);
+    "reactive_power" ReactivePower (alone);
+    "power_factor" PowerFactor (alone);
+    "lifetime_energy" LifetimeEnergy (alone);
+    "dc_current" DcCurrent (alone);
+    "dc_voltage" DcVoltage (alone);
+    "dc_power" DcPower (alone);
+    "cabinet_temperature" CabinetTemperature (alone);
+    "heat_sink_temperature" HeatSinkTemperature (alone);
+    "transformer_temperature" TransformerTemperature (alone);
+    "other_temperature" OtherTemperature (alone);
+    "rated_power" RatedPower (alone);
+    "rated_apparent_power" RatedApparentPower (alone);
+    "rated_reactive_power_q1" RatedReactivePowerQ1 (alone);
+    "rated_reactive_power_q2" RatedReactivePowerQ2 (alone);
+    "rated_reactive_power_q3" RatedReactivePowerQ3 (alone);
+    "rated_reactive_power_q4" RatedReactivePowerQ4 (alone);
+    "rated_current" RatedCurrent (alone);
+    "rated_energy" RatedEnergy (alone);
+    "rated_charge" RatedCharge (alone);
+    "maximum_charge_rate" MaximumChargeRate (alone);
+    "maximum_discharge_rate" MaximumDischargeRate (alone);
+    "maximum_power" MaximumPower (alone);
+    "reference_voltage" ReferenceVoltage (alone);
+    "reference_voltage_offset" ReferenceVoltageOffset (alone);
+    "maximum_voltage" MaximumVoltage (alone);
+    "minimum_voltage" MinimumVoltage (alone);
+    "maximum_apparent_power" MaximumApparentPower (alone);
+    "maximum_reactive_power_q1" MaximumReactivePowerQ1 (alone);
+    "maximum_reactive_power_q2" MaximumReactivePowerQ2 (alone);
+    "maximum_reactive_power_q3" MaximumReactivePowerQ3 (alone);
+    "maximum_reactive_power_q4" MaximumReactivePowerQ4 (alone);
+    "power_ramp_rate" PowerRampRate (alone);
+    "maximum_ramp_rate" MaximumRampRate (alone);
+    "nominal_frequency" NominalFrequency (alone);
+    "active_energy" ActiveEnergy (alone);
+    "apparent_energy" ApparentEnergy (alone);
+    "reactive_energy_q1" ReactiveEnergyQ1 (alone);
+    "reactive_energy_q2" ReactiveEnergyQ2 (alone);
+    "reactive_energy_q3" ReactiveEnergyQ3 (alone);
+    "reactive_energy_q4" ReactiveEnergyQ4 (alone);
+    "available_reactive_power" AvailableReactivePower (alone);
+    "available_power" AvailablePower (alone);
+    "time" Time (alone);
+    "isolation_resistance" IsolationResistance (alone);
+    "connection_window" ConnectionWindow (alone);
+    "connection_timeout" ConnectionTimeout (alone);
+    "power_limit" PowerLimit (alone);
+    "power_limit_window" PowerLimitWindow (alone);
+    "power_limit_timeout" PowerLimitTimeout (alone);
+    "power_limit_ramp_time" PowerLimitRampTime (alone);
+    "power_factor_window" PowerFactorWindow (alone);
+    "power_factor_timeout" PowerFactorTimeout (alone);
+    "power_factor_ramp_time" PowerFactorRampTime (alone);
+    "reactive_power_of_maximum_power" ReactivePowerOfMaximumPower (alone);
+    "reactive_power_of_maximum" ReactivePowerOfMaximum (alone);
+    "reactive_power_of_available" ReactivePowerOfAvailable (alone);
+    "reactive_power_window" ReactivePowerWindow (alone);
+    "reactive_power_timeout" ReactivePowerTimeout (alone);
+    "reactive_power_ramp_time" ReactivePowerRampTime (alone);
+    "module_current_index_1" ModuleCurrentIndex1 (alone);
+    "module_current_index_2" ModuleCurrentIndex2 (alone);
+    "module_voltage_index_1" ModuleVoltageIndex1 (alone);
+    "module_voltage_index_2" ModuleVoltageIndex2 (alone);
+    "module_power_index_1" ModulePowerIndex1 (alone);
+    "module_power_index_2" ModulePowerIndex2 (alone);
+    "module_energy_index_1" ModuleEnergyIndex1 (alone);
+    "module_energy_index_2" ModuleEnergyIndex2 (alone);
+    "module_timestamp_index_1" ModuleTimestampIndex1 (alone);
+    "module_timestamp_index_2" ModuleTimestampIndex2 (alone);
+    "module_temperature_index_1" ModuleTemperatureIndex1 (alone);
+    "module_temperature_index_2" ModuleTemperatureIndex2 (alone);
+    "maximum_charge_power" MaximumChargePower (alone);
+    "charge_ramp_rate" ChargeRampRate (alone);
+    "discharge_ramp_rate" DischargeRampRate (alone);
+    "maximum_charge_apparent_power" MaximumChargeApparentPower (alone);
+    "minimum_reserve" MinimumReserve (alone);
+    "state_of_charge" StateOfCharge (alone);
+    "available_charge" AvailableCharge (alone);
+    "battery_voltage" BatteryVoltage (alone);
+    "discharge_limit" DischargeLimit (alone);
+    "charge_limit" ChargeLimit (alone);
+    "storage_window" StorageWindow (alone);
+    "storage_timeout" StorageTimeout (alone);
+    "storage_ramp_time" StorageRampTime (alone);
+    "site_power" SitePower (alone);
+    "site_energy_of_day" SiteEnergyOfDay (alone);
+    "site_energy_of_year" SiteEnergyOfYear (alone);
+    "site_energy_total" SiteEnergyTotal (alone);
+} }
+
+table! { words words {
+    "ac_current_exponent" AcCurrentExponent (alone);
+    "ac_voltage_exponent" AcVoltageExponent (alone);
+    "ac_power" AcPower (alone);
+    "ac_power_exponent" AcPowerExponent (alone);
+    "frequency_exponent" FrequencyExponent (alone);
+    "apparent_power" ApparentPower (alone);
+    "apparent_power_exponent" ApparentPowerExponent (alone);
+    "reactive_power" ReactivePower (alone);
+    "reactive_power_exponent" ReactivePowerExponent (alone);
+    "power_factor" PowerFactor (alone);
+    "power_factor_exponent" PowerFactorExponent (alone);
+    "lifetime_energy" LifetimeEnergy (alone);
+    "lifetime_energy_exponent" LifetimeEnergyExponent (alone);
+    "dc_current_exponent" DcCurrentExponent (alone);
+    "dc_voltage_exponent" DcVoltageExponent (alone);
+    "dc_power" DcPower (alone);
+    "dc_power_exponent" DcPowerExponent (alone);
+    "cabinet_temperature" CabinetTemperature (alone);
+    "heat_sink_temperature" HeatSinkTemperature (alone);
+    "transformer_temperature" TransformerTemperature (alone);
+    "other_temperature" OtherTemperature (alone);
+    "temperature_exponent" TemperatureExponent (alone);
+    "events_1" Events1 (alone);
+    "events_2" Events2 (alone);
+    "vendor_events_1" VendorEvents1 (alone);
+    "vendor_events_2" VendorEvents2 (alone);
+    "vendor_events_3" VendorEvents3 (alone);
+    "vendor_events_4" VendorEvents4 (alone);
+    "rated_power_exponent" RatedPowerExponent (alone);
+    "rated_apparent_power_exponent" RatedApparentPowerExponent (alone);
+    "rated_reactive_power_q1" RatedReactivePowerQ1 (alone);
+    "rated_reactive_power_q2" RatedReactivePowerQ2 (alone);
+    "rated_reactive_power_q3" RatedReactivePowerQ3 (alone);
+    "rated_reactive_power_q4" RatedReactivePowerQ4 (alone);
+    "rated_reactive_power_exponent" RatedReactivePowerExponent (alone);
+    "rated_current_exponent" RatedCurrentExponent (alone);
+    "rated_power_factor_q1" RatedPowerFactorQ1 (alone);
+    "rated_power_factor_q2" RatedPowerFactorQ2 (alone);
+    "rated_power_factor_q3" RatedPowerFactorQ3 (alone);
+    "rated_power_factor_q4" RatedPowerFactorQ4 (alone);
+    "rated_power_factor_exponent" RatedPowerFactorExponent (alone);
+    "rated_energy_exponent" RatedEnergyExponent (alone);
+    "rated_charge_exponent" RatedChargeExponent (alone);
+    "maximum_charge_rate_exponent" MaximumChargeRateExponent (alone);
+    "maximum_discharge_rate_exponent" MaximumDischargeRateExponent (alone);
+    "reference_voltage_offset" ReferenceVoltageOffset (alone);
+    "maximum_reactive_power_q1" MaximumReactivePowerQ1 (alone);
+    "maximum_reactive_power_q2" MaximumReactivePowerQ2 (alone);
+    "maximum_reactive_power_q3" MaximumReactivePowerQ3 (alone);
+    "maximum_reactive_power_q4" MaximumReactivePowerQ4 (alone);
+    "minimum_power_factor_q1" MinimumPowerFactorQ1 (alone);
+    "minimum_power_factor_q2" MinimumPowerFactorQ2 (alone);
+    "minimum_power_factor_q3" MinimumPowerFactorQ3 (alone);
+    "minimum_power_factor_q4" MinimumPowerFactorQ4 (alone);
+    "maximum_power_exponent" MaximumPowerExponent (alone);
+    "reference_voltage_exponent" ReferenceVoltageExponent (alone);
+    "reference_voltage_offset_exponent" ReferenceVoltageOffsetExponent (alone);
+    "voltage_limits_exponent" VoltageLimitsExponent (alone);
+    "maximum_apparent_power_exponent" MaximumApparentPowerExponent (alone);
+    "maximum_reactive_power_exponent" MaximumReactivePowerExponent (alone);
+    "power_ramp_rate_exponent" PowerRampRateExponent (alone);
+    "minimum_power_factor_exponent" MinimumPowerFactorExponent (alone);
+    "maximum_ramp_rate_exponent" MaximumRampRateExponent (alone);
+    "nominal_frequency_exponent" NominalFrequencyExponent (alone);
+    "active_energy" ActiveEnergy (alone);
+    "apparent_energy" ApparentEnergy (alone);
+    "reactive_energy_q1" ReactiveEnergyQ1 (alone);
+    "reactive_energy_q2" ReactiveEnergyQ2 (alone);
+    "reactive_energy_q3" ReactiveEnergyQ3 (alone);
+    "reactive_energy_q4" ReactiveEnergyQ4 (alone);
+    "available_reactive_power" AvailableReactivePower (alone);
+    "available_reactive_power_exponent" AvailableReactivePowerExponent (alone);
+    "available_power_exponent" AvailablePowerExponent (alone);
+    "limits_reached" LimitsReached (alone);
+    "active_controls" ActiveControls (alone);
+    "time" Time (alone);
+    "isolation_resistance_exponent" IsolationResistanceExponent (alone);
+    "power_factor_setpoint" PowerFactorSetpoint (alone);
+    "reactive_power_of_maximum_power" ReactivePowerOfMaximumPower (alone);
+    "reactive_power_of_maximum" ReactivePowerOfMaximum (alone);
+    "reactive_power_of_available" ReactivePowerOfAvailable (alone);
+    "power_limit_exponent" PowerLimitExponent (alone);
+    "power_factor_setpoint_exponent" PowerFactorSetpointExponent (alone);
+    "reactive_power_percent_exponent" ReactivePowerPercentExponent (alone);
+    "module_current_exponent" ModuleCurrentExponent (alone);
+    "module_voltage_exponent" ModuleVoltageExponent (alone);
+    "module_power_exponent" ModulePowerExponent (alone);
+    "module_energy_exponent" ModuleEnergyExponent (alone);
+    "module_global_events" ModuleGlobalEvents (alone);
+    "module_energy_index_1" ModuleEnergyIndex1 (alone);
+    "module_energy_index_2" ModuleEnergyIndex2 (alone);
+    "module_timestamp_index_1" ModuleTimestampIndex1 (alone);
+    "module_timestamp_index_2" ModuleTimestampIndex2 (alone);
+    "module_temperature_index_1" ModuleTemperatureIndex1 (alone);
+    "module_temperature_index_2" ModuleTemperatureIndex2 (alone);
+    "module_events_index_1" ModuleEventsIndex1 (alone);
+    "module_events_index_2" ModuleEventsIndex2 (alone);
+    "discharge_limit" DischargeLimit (alone);
+    "charge_limit" ChargeLimit (alone);
+    "maximum_charge_power_exponent" MaximumChargePowerExponent (alone);
+    "charge_ramp_rate_exponent" ChargeRampRateExponent (alone);
+    "maximum_charge_apparent_power_exponent" MaximumChargeApparentPowerExponent (alone);
+    "minimum_reserve_exponent" MinimumReserveExponent (alone);
+    "state_of_charge_exponent" StateOfChargeExponent (alone);
+    "available_charge_exponent" AvailableChargeExponent (alone);
+    "battery_voltage_exponent" BatteryVoltageExponent (alone);
+    "storage_limits_exponent" StorageLimitsExponent (alone);
+    "site_power" SitePower (alone);
+    "site_energy_of_day" SiteEnergyOfDay (alone);
+    "site_energy_of_year" SiteEnergyOfYear (alone);
+    "site_energy_total" SiteEnergyTotal (alone);
+} }
+
+table! { name name {
+    "operating_state" OperatingState (enum u16);
+    "vendor_operating_state" VendorOperatingState (enum u16);
+    "der_type" DerType (enum u16);
+    "reactive_power_action" ReactivePowerAction (enum u16);
+    "apparent_power_method" ApparentPowerMethod (enum u16);
+    "connected_phase" ConnectedPhase (enum u16);
+    "grid_connection" GridConnection (enum u16);
+    "connection" Connection (enum u16);
+    "power_limit_enabled" PowerLimitEnabled (enum u16);
+    "power_factor_enabled" PowerFactorEnabled (enum u16);
+    "reactive_power_mode" ReactivePowerMode (enum u16);
+    "reactive_power_enabled" ReactivePowerEnabled (enum u16);
+    "module_operating_state_index_1" OperatingState (enum u16);
+    "module_operating_state_index_2" OperatingState (enum u16);
+    "charge_state" ChargeState (enum u16);
+    "grid_charging" GridCharging (enum u16);
+    "delete_data" DeleteData (enum u16);
+    "store_data" StoreData (enum u16);
+    "reset_all_event_flags" ResetAllEventFlags (enum u16);
+    "model_type" ModelType (enum u16);
+    "storage_restrictions_view_mode" StorageRestrictionsViewMode (enum u16);
+} }
+
+table! { flag flag {
+    "events_1 ground_fault" Events1 (flag u32 ground_fault with_ground_fault);
+    "events_1 dc_over_voltage" Events1 (flag u32 dc_over_voltage with_dc_over_voltage);
+    "events_1 ac_disconnect" Events1 (flag u32 ac_disconnect with_ac_disconnect);
+    "events_1 dc_disconnect" Events1 (flag u32 dc_disconnect with_dc_disconnect);
+    "events_1 grid_disconnect" Events1 (flag u32 grid_disconnect with_grid_disconnect);
+    "events_1 cabinet_open" Events1 (flag u32 cabinet_open with_cabinet_open);
+    "events_1 manual_shutdown" Events1 (flag u32 manual_shutdown with_manual_shutdown);
+    "events_1 over_temperature" Events1 (flag u32 over_temperature with_over_temperature);
+    "events_1 over_frequency" Events1 (flag u32 over_frequency with_over_frequency);
+    "events_1 under_frequency" Events1 (flag u32 under_frequency with_under_frequency);
+    "events_1 ac_over_voltage" Events1 (flag u32 ac_over_voltage with_ac_over_voltage);
+    "events_1 ac_under_voltage" Events1 (flag u32 ac_under_voltage with_ac_under_voltage);
+    "events_1 blown_string_fuse" Events1 (flag u32 blown_string_fuse with_blown_string_fuse);
+    "events_1 under_temperature" Events1 (flag u32 under_temperature with_under_temperature);
+    "events_1 memory_loss" Events1 (flag u32 memory_loss with_memory_loss);
+    "events_1 hardware_test_failure" Events1 (flag u32 hardware_test_failure with_hardware_test_failure);
+    "pv_connection connected" PvConnection (flag u16 connected with_connected);
+    "pv_connection available" PvConnection (flag u16 available with_available);
+    "pv_connection operating" PvConnection (flag u16 operating with_operating);
+    "pv_connection test" PvConnection (flag u16 test with_test);
+    "storage_connection connected" StorageConnection (flag u16 connected with_connected);
+    "storage_connection available" StorageConnection (flag u16 available with_available);
+    "storage_connection operating" StorageConnection (flag u16 operating with_operating);
+    "storage_connection test" StorageConnection (flag u16 test with_test);
+    "active_controls fixed_power" ActiveControls (flag u32 fixed_power with_fixed_power);
+    "active_controls fixed_reactive_power" ActiveControls (flag u32 fixed_reactive_power
+        with_fixed_reactive_power);
+    "active_controls fixed_power_factor" ActiveControls (flag u32 fixed_power_factor
+        with_fixed_power_factor);
+    "storage_control_mode charge" StorageControlMode (flag u16 charge with_charge);
+    "storage_control_mode discharge" StorageControlMode (flag u16 discharge with_discharge);
+} }
+
+table! { encode encode {
+    "maximum_power" MaximumPower (MaximumPower: maximum_power_exponent "maximum_power_exponent");
+    "reference_voltage" ReferenceVoltage (ReferenceVoltage: reference_voltage_exponent
+        "reference_voltage_exponent");
+    "reference_voltage_offset" ReferenceVoltageOffset (ReferenceVoltageOffset:
+        reference_voltage_offset_exponent "reference_voltage_offset_exponent");
+    "maximum_voltage" MaximumVoltage (MaximumVoltage: voltage_limits_exponent "voltage_limits_exponent");
+    "minimum_voltage" MinimumVoltage (MinimumVoltage: voltage_limits_exponent "voltage_limits_exponent");
+    "maximum_apparent_power" MaximumApparentPower (MaximumApparentPower: maximum_apparent_power_exponent
+        "maximum_apparent_power_exponent");
+    "power_limit" PowerLimit (PowerLimit: power_limit_exponent "power_limit_exponent");
+    "power_factor_setpoint" PowerFactorSetpoint (PowerFactorSetpoint: power_factor_setpoint_exponent
+        "power_factor_setpoint_exponent");
+    "reactive_power_of_maximum" ReactivePowerOfMaximum (ReactivePowerOfMaximum:
+        reactive_power_percent_exponent "reactive_power_percent_exponent");
+    "minimum_reserve" MinimumReserve (MinimumReserve: minimum_reserve_exponent "minimum_reserve_exponent");
+    "discharge_limit" DischargeLimit (DischargeLimit: storage_limits_exponent "storage_limits_exponent");
+    "charge_limit" ChargeLimit (ChargeLimit: storage_limits_exponent "storage_limits_exponent");
+} }
+
+table! { check check {
+    "maximum_power" MaximumPower (MaximumPower: maximum_power_exponent "maximum_power_exponent");
+    "reference_voltage" ReferenceVoltage (ReferenceVoltage: reference_voltage_exponent
+        "reference_voltage_exponent");
+    "reference_voltage_offset" ReferenceVoltageOffset (ReferenceVoltageOffset:
+        reference_voltage_offset_exponent "reference_voltage_offset_exponent");
+    "maximum_voltage" MaximumVoltage (MaximumVoltage: voltage_limits_exponent "voltage_limits_exponent");
+    "minimum_voltage" MinimumVoltage (MinimumVoltage: voltage_limits_exponent "voltage_limits_exponent");
+    "maximum_apparent_power" MaximumApparentPower (MaximumApparentPower: maximum_apparent_power_exponent
+        "maximum_apparent_power_exponent");
+    "connection_window" ConnectionWindow ();
+    "connection_timeout" ConnectionTimeout ();
+    "connection" Connection ();
+    "power_limit" PowerLimit (PowerLimit: power_limit_exponent "power_limit_exponent");
+    "power_limit_window" PowerLimitWindow ();
+    "power_limit_timeout" PowerLimitTimeout ();
+    "power_limit_ramp_time" PowerLimitRampTime ();
+    "power_limit_enabled" PowerLimitEnabled ();
+    "power_factor_setpoint" PowerFactorSetpoint (PowerFactorSetpoint: power_factor_setpoint_exponent
+        "power_factor_setpoint_exponent");
+    "power_factor_window" PowerFactorWindow ();
+    "power_factor_timeout" PowerFactorTimeout ();
+    "power_factor_ramp_time" PowerFactorRampTime ();
+    "power_factor_enabled" PowerFactorEnabled ();
+    "reactive_power_of_maximum" ReactivePowerOfMaximum (ReactivePowerOfMaximum:
+        reactive_power_percent_exponent "reactive_power_percent_exponent");
+    "reactive_power_window" ReactivePowerWindow ();
+    "reactive_power_timeout" ReactivePowerTimeout ();
+    "reactive_power_ramp_time" ReactivePowerRampTime ();
+    "reactive_power_enabled" ReactivePowerEnabled ();
+    "storage_control_mode" StorageControlMode ();
+    "minimum_reserve" MinimumReserve (MinimumReserve: minimum_reserve_exponent "minimum_reserve_exponent");
+    "discharge_limit" DischargeLimit (DischargeLimit: storage_limits_exponent "storage_limits_exponent");
+    "charge_limit" ChargeLimit (ChargeLimit: storage_limits_exponent "storage_limits_exponent");
+    "grid_charging" GridCharging ();
+    "delete_data" DeleteData ();
+    "store_data" StoreData ();
+    "reset_all_event_flags" ResetAllEventFlags ();
+    "model_type" ModelType ();
+    "storage_restrictions_view_mode" StorageRestrictionsViewMode ();
+} }
+
 table! { write_by_write write {
     "maximum_power" MaximumPower (wire (MaximumPower: maximum_power_exponent "maximum_power_exponent")
         (MaximumPower: maximum_power_exponent "maximum_power_exponent"));
@@ -1553,6 +1484,57 @@ table! { write_by_write write {
     "storage_restrictions_view_mode" StorageRestrictionsViewMode (wire () ());
 } }
 
+table! { decode_plain decode_plain {
+    "active_energy" ActiveEnergy ();
+    "apparent_energy" ApparentEnergy ();
+    "reactive_energy_q1" ReactiveEnergyQ1 ();
+    "reactive_energy_q2" ReactiveEnergyQ2 ();
+    "reactive_energy_q3" ReactiveEnergyQ3 ();
+    "reactive_energy_q4" ReactiveEnergyQ4 ();
+    "delete_data" DeleteData ();
+    "store_data" StoreData ();
+    "active_state_code" ActiveStateCode ();
+    "reset_all_event_flags" ResetAllEventFlags ();
+    "model_type" ModelType ();
+    "storage_restrictions_view_mode" StorageRestrictionsViewMode ();
+    "site_power" SitePower ();
+    "site_energy_of_day" SiteEnergyOfDay ();
+    "site_energy_of_year" SiteEnergyOfYear ();
+    "site_energy_total" SiteEnergyTotal ();
+} }
+
+table! { epoch epoch {
+    "time" Time (alone);
+} }
+
+table! { encode_coded encode_coded {
+    "connection_window" ConnectionWindow ();
+    "connection_timeout" ConnectionTimeout ();
+    "connection" Connection ();
+    "power_limit_window" PowerLimitWindow ();
+    "power_limit_timeout" PowerLimitTimeout ();
+    "power_limit_ramp_time" PowerLimitRampTime ();
+    "power_limit_enabled" PowerLimitEnabled ();
+    "power_factor_window" PowerFactorWindow ();
+    "power_factor_timeout" PowerFactorTimeout ();
+    "power_factor_ramp_time" PowerFactorRampTime ();
+    "power_factor_enabled" PowerFactorEnabled ();
+    "reactive_power_window" ReactivePowerWindow ();
+    "reactive_power_timeout" ReactivePowerTimeout ();
+    "reactive_power_ramp_time" ReactivePowerRampTime ();
+    "reactive_power_enabled" ReactivePowerEnabled ();
+    "storage_control_mode" StorageControlMode ();
+    "grid_charging" GridCharging ();
+} }
+
+table! { encode_plain encode_plain {
+    "delete_data" DeleteData ();
+    "store_data" StoreData ();
+    "reset_all_event_flags" ResetAllEventFlags ();
+    "model_type" ModelType ();
+    "storage_restrictions_view_mode" StorageRestrictionsViewMode ();
+} }
+
 table! { code code {
     "exception illegal_function" exceptions (named ILLEGAL_FUNCTION);
     "exception illegal_data_address" exceptions (named ILLEGAL_DATA_ADDRESS);
@@ -1576,37 +1558,29 @@ const FOUND: &[device::runtime::modbus::FoundBlock] = &[
 
 fn run(kind: &str, vector: &runner::Vector) -> Option<runner::Outcome> {
     match kind {
-        "decode" => decode(vector),
-        "encode" => encode(vector),
-        "decode_count" => decode_count(vector)
-            .or_else(|| decode_plain(vector))
-            .or_else(|| decode_coded(vector))
-            .or_else(|| decode_mixed(vector)),
-        "encode_count" => encode_count(vector)
-            .or_else(|| encode_plain(vector))
-            .or_else(|| encode_coded(vector))
-            .or_else(|| encode_mixed(vector)),
-        "check" => check(vector),
-        "name" => name(vector),
+        "text_decode" => text_decode(vector),
+        "place" => place(vector),
+        "read" => read_by_read_text(vector).or_else(|| read_by_read(vector)),
+        "decode_count" => decode_coded(vector).or_else(|| decode_plain(vector)),
         "special" => special(vector),
         "special_name" => special_name(vector),
-        "flag" => flag(vector),
-        "flag_name" => flag_name(vector),
-        "bits" => bits(vector),
-        "words" => words(vector),
-        "address" => runner::listed(vector, device::POINTS, address(vector)),
+        "decode" => decode(vector),
         "symbol" => symbol(vector),
-        "place" => place(vector),
-        "epoch" => epoch(vector),
-        "text_decode" => text_decode(vector),
-        "identification" => runner::identification(vector, device::IDENTIFICATIONS),
-        "read" => read_by_read_text(vector).or_else(|| read_by_read(vector)),
+        "words" => words(vector),
+        "name" => name(vector),
+        "flag" => flag(vector),
+        "encode" => encode(vector),
+        "check" => check(vector),
         "write" => write_by_write(vector),
+        "epoch" => epoch(vector),
+        "encode_count" => encode_coded(vector).or_else(|| encode_plain(vector)),
+        "address" => runner::listed(vector, device::POINTS, address(vector)),
+        "identification" => runner::identification(vector, device::IDENTIFICATIONS),
         "code" => {
             code(vector).map(|found| found.and_then(|()| frames::named(vector, &device::PROFILE)))
         }
-        "build" | "printed_build" => Some(frames::build(vector, &device::PROFILE)),
-        "reply" | "printed_reply" => Some(frames::reply(vector)),
+        "build" => Some(frames::build(vector, &device::PROFILE)),
+        "reply" => Some(frames::reply(vector)),
         "block" => Some(frames::block(vector, device::BLOCKS)),
         "step" => Some(frames::step(vector, device::STEPPED_COMMANDS)),
         "base" => Some(frames::base_of(vector, &device::PROFILE, GIVEN, FOUND)),

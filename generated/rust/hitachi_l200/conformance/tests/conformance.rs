@@ -9,310 +9,6 @@ use fieldscribe_conformance::{self as runner, table};
 
 use ::hitachi_l200 as device;
 
-table! { decode decode {
-    "network_frequency_setpoint" NetworkFrequencySetpoint ();
-    "network_process_value" NetworkProcessValue ();
-    "output_frequency" OutputFrequency ();
-    "motor_current" MotorCurrent ();
-    "scaled_process_value" ScaledProcessValue ();
-    "output_voltage" OutputVoltage ();
-    "trip_1_output_frequency" Trip1OutputFrequency ();
-    "trip_1_motor_current" Trip1MotorCurrent ();
-    "trip_1_dc_bus_voltage" Trip1DcBusVoltage ();
-    "trip_2_output_frequency" Trip2OutputFrequency ();
-    "trip_2_motor_current" Trip2MotorCurrent ();
-    "trip_2_dc_bus_voltage" Trip2DcBusVoltage ();
-    "trip_3_output_frequency" Trip3OutputFrequency ();
-    "trip_3_motor_current" Trip3MotorCurrent ();
-    "trip_3_dc_bus_voltage" Trip3DcBusVoltage ();
-    "acceleration_time" AccelerationTime ();
-    "acceleration_time_set_2" AccelerationTimeSet2 ();
-    "deceleration_time" DecelerationTime ();
-    "deceleration_time_set_2" DecelerationTimeSet2 ();
-    "input_o_minimum_frequency" InputOMinimumFrequency ();
-    "input_o_maximum_frequency" InputOMaximumFrequency ();
-    "base_frequency" BaseFrequency ();
-    "base_frequency_set_2" BaseFrequencySet2 ();
-    "fixed_frequency_1" FixedFrequency1 ();
-    "fixed_frequency_2" FixedFrequency2 ();
-    "fixed_frequency_3" FixedFrequency3 ();
-    "fixed_frequency_4" FixedFrequency4 ();
-    "fixed_frequency_5" FixedFrequency5 ();
-    "fixed_frequency_6" FixedFrequency6 ();
-    "fixed_frequency_7" FixedFrequency7 ();
-    "fixed_frequency_8" FixedFrequency8 ();
-    "fixed_frequency_9" FixedFrequency9 ();
-    "fixed_frequency_10" FixedFrequency10 ();
-    "fixed_frequency_11" FixedFrequency11 ();
-    "fixed_frequency_12" FixedFrequency12 ();
-    "fixed_frequency_13" FixedFrequency13 ();
-    "fixed_frequency_14" FixedFrequency14 ();
-    "fixed_frequency_15" FixedFrequency15 ();
-    "jog_frequency" JogFrequency ();
-    "manual_boost" ManualBoost ();
-    "manual_boost_set_2" ManualBoostSet2 ();
-    "manual_boost_frequency" ManualBoostFrequency ();
-    "manual_boost_frequency_set_2" ManualBoostFrequencySet2 ();
-    "dc_brake_frequency" DcBrakeFrequency ();
-    "dc_brake_delay" DcBrakeDelay ();
-    "dc_brake_time" DcBrakeTime ();
-    "upper_frequency_limit" UpperFrequencyLimit ();
-    "upper_frequency_limit_set_2" UpperFrequencyLimitSet2 ();
-    "lower_frequency_limit" LowerFrequencyLimit ();
-    "lower_frequency_limit_set_2" LowerFrequencyLimitSet2 ();
-    "jump_frequency_1" JumpFrequency1 ();
-    "jump_frequency_1_width" JumpFrequency1Width ();
-    "jump_frequency_2" JumpFrequency2 ();
-    "jump_frequency_2_width" JumpFrequency2Width ();
-    "jump_frequency_3" JumpFrequency3 ();
-    "jump_frequency_3_width" JumpFrequency3Width ();
-    "pid_proportional_gain" PidProportionalGain ();
-    "pid_integral_time" PidIntegralTime ();
-    "pid_derivative_time" PidDerivativeTime ();
-    "pid_display_factor" PidDisplayFactor ();
-    "pid_output_limit" PidOutputLimit ();
-    "acceleration_time_2" AccelerationTime2 ();
-    "deceleration_time_2" DecelerationTime2 ();
-    "deceleration_time_2_set_2" DecelerationTime2Set2 ();
-    "acceleration_change_frequency" AccelerationChangeFrequency ();
-    "acceleration_change_frequency_set_2" AccelerationChangeFrequencySet2 ();
-    "deceleration_change_frequency" DecelerationChangeFrequency ();
-    "deceleration_change_frequency_set_2" DecelerationChangeFrequencySet2 ();
-    "input_oi_minimum_frequency" InputOiMinimumFrequency ();
-    "input_oi_maximum_frequency" InputOiMaximumFrequency ();
-    "frequency_offset" FrequencyOffset ();
-    "potentiometer_minimum_frequency" PotentiometerMinimumFrequency ();
-    "potentiometer_maximum_frequency" PotentiometerMaximumFrequency ();
-    "allowed_power_failure_time" AllowedPowerFailureTime ();
-    "restart_delay" RestartDelay ();
-    "motor_protection_level" MotorProtectionLevel ();
-    "motor_protection_level_set_2" MotorProtectionLevelSet2 ();
-    "current_limit_level" CurrentLimitLevel ();
-    "current_limit_level_set_2" CurrentLimitLevelSet2 ();
-    "current_limit_time" CurrentLimitTime ();
-    "current_limit_time_set_2" CurrentLimitTimeSet2 ();
-    "start_frequency" StartFrequency ();
-    "carrier_frequency" CarrierFrequency ();
-    "frequency_display_factor" FrequencyDisplayFactor ();
-    "overload_alarm_level" OverloadAlarmLevel ();
-    "overload_alarm_level_set_2" OverloadAlarmLevelSet2 ();
-    "arrival_frequency_acceleration" ArrivalFrequencyAcceleration ();
-    "arrival_frequency_deceleration" ArrivalFrequencyDeceleration ();
-    "pid_deviation_level" PidDeviationLevel ();
-    "pid_process_value_upper_limit" PidProcessValueUpperLimit ();
-    "pid_process_value_lower_limit" PidProcessValueLowerLimit ();
-    "input_o_calibration" InputOCalibration ();
-    "input_oi_calibration" InputOiCalibration ();
-    "thermistor_input_calibration" ThermistorInputCalibration ();
-    "analog_output_offset" AnalogOutputOffset ();
-    "digital_output_11_on_delay" DigitalOutput11OnDelay ();
-    "digital_output_11_off_delay" DigitalOutput11OffDelay ();
-    "digital_output_12_on_delay" DigitalOutput12OnDelay ();
-    "digital_output_12_off_delay" DigitalOutput12OffDelay ();
-    "relay_output_on_delay" RelayOutputOnDelay ();
-    "relay_output_off_delay" RelayOutputOffDelay ();
-} }
-
-table! { encode encode {
-    "network_frequency_setpoint" NetworkFrequencySetpoint ();
-    "network_process_value" NetworkProcessValue ();
-    "acceleration_time" AccelerationTime ();
-    "acceleration_time_set_2" AccelerationTimeSet2 ();
-    "deceleration_time" DecelerationTime ();
-    "deceleration_time_set_2" DecelerationTimeSet2 ();
-    "input_o_minimum_frequency" InputOMinimumFrequency ();
-    "input_o_maximum_frequency" InputOMaximumFrequency ();
-    "base_frequency" BaseFrequency ();
-    "base_frequency_set_2" BaseFrequencySet2 ();
-    "fixed_frequency_1" FixedFrequency1 ();
-    "fixed_frequency_2" FixedFrequency2 ();
-    "fixed_frequency_3" FixedFrequency3 ();
-    "fixed_frequency_4" FixedFrequency4 ();
-    "fixed_frequency_5" FixedFrequency5 ();
-    "fixed_frequency_6" FixedFrequency6 ();
-    "fixed_frequency_7" FixedFrequency7 ();
-    "fixed_frequency_8" FixedFrequency8 ();
-    "fixed_frequency_9" FixedFrequency9 ();
-    "fixed_frequency_10" FixedFrequency10 ();
-    "fixed_frequency_11" FixedFrequency11 ();
-    "fixed_frequency_12" FixedFrequency12 ();
-    "fixed_frequency_13" FixedFrequency13 ();
-    "fixed_frequency_14" FixedFrequency14 ();
-    "fixed_frequency_15" FixedFrequency15 ();
-    "jog_frequency" JogFrequency ();
-    "manual_boost" ManualBoost ();
-    "manual_boost_set_2" ManualBoostSet2 ();
-    "manual_boost_frequency" ManualBoostFrequency ();
-    "manual_boost_frequency_set_2" ManualBoostFrequencySet2 ();
-    "dc_brake_frequency" DcBrakeFrequency (DcBrakeFrequency: start_frequency "start_frequency");
-    "dc_brake_delay" DcBrakeDelay ();
-    "dc_brake_time" DcBrakeTime ();
-    "upper_frequency_limit" UpperFrequencyLimit (UpperFrequencyLimit: lower_frequency_limit
-        "lower_frequency_limit" maximum_frequency "maximum_frequency");
-    "upper_frequency_limit_set_2" UpperFrequencyLimitSet2 (UpperFrequencyLimitSet2:
-        lower_frequency_limit_set_2 "lower_frequency_limit_set_2" maximum_frequency_set_2
-        "maximum_frequency_set_2");
-    "lower_frequency_limit" LowerFrequencyLimit (LowerFrequencyLimit: start_frequency "start_frequency"
-        upper_frequency_limit "upper_frequency_limit");
-    "lower_frequency_limit_set_2" LowerFrequencyLimitSet2 (LowerFrequencyLimitSet2: start_frequency
-        "start_frequency" upper_frequency_limit_set_2 "upper_frequency_limit_set_2");
-    "jump_frequency_1" JumpFrequency1 ();
-    "jump_frequency_1_width" JumpFrequency1Width ();
-    "jump_frequency_2" JumpFrequency2 ();
-    "jump_frequency_2_width" JumpFrequency2Width ();
-    "jump_frequency_3" JumpFrequency3 ();
-    "jump_frequency_3_width" JumpFrequency3Width ();
-    "pid_proportional_gain" PidProportionalGain ();
-    "pid_integral_time" PidIntegralTime ();
-    "pid_derivative_time" PidDerivativeTime ();
-    "pid_display_factor" PidDisplayFactor ();
-    "pid_output_limit" PidOutputLimit ();
-    "acceleration_time_2" AccelerationTime2 ();
-    "deceleration_time_2" DecelerationTime2 ();
-    "deceleration_time_2_set_2" DecelerationTime2Set2 ();
-    "acceleration_change_frequency" AccelerationChangeFrequency ();
-    "acceleration_change_frequency_set_2" AccelerationChangeFrequencySet2 ();
-    "deceleration_change_frequency" DecelerationChangeFrequency ();
-    "deceleration_change_frequency_set_2" DecelerationChangeFrequencySet2 ();
-    "input_oi_minimum_frequency" InputOiMinimumFrequency ();
-    "input_oi_maximum_frequency" InputOiMaximumFrequency ();
-    "frequency_offset" FrequencyOffset ();
-    "potentiometer_minimum_frequency" PotentiometerMinimumFrequency ();
-    "potentiometer_maximum_frequency" PotentiometerMaximumFrequency ();
-    "allowed_power_failure_time" AllowedPowerFailureTime ();
-    "restart_delay" RestartDelay ();
-    "motor_protection_level" MotorProtectionLevel ();
-    "motor_protection_level_set_2" MotorProtectionLevelSet2 ();
-    "current_limit_level" CurrentLimitLevel ();
-    "current_limit_level_set_2" CurrentLimitLevelSet2 ();
-    "current_limit_time" CurrentLimitTime ();
-    "current_limit_time_set_2" CurrentLimitTimeSet2 ();
-    "start_frequency" StartFrequency ();
-    "carrier_frequency" CarrierFrequency ();
-    "frequency_display_factor" FrequencyDisplayFactor ();
-    "overload_alarm_level" OverloadAlarmLevel ();
-    "overload_alarm_level_set_2" OverloadAlarmLevelSet2 ();
-    "arrival_frequency_acceleration" ArrivalFrequencyAcceleration ();
-    "arrival_frequency_deceleration" ArrivalFrequencyDeceleration ();
-    "pid_deviation_level" PidDeviationLevel ();
-    "pid_process_value_upper_limit" PidProcessValueUpperLimit ();
-    "pid_process_value_lower_limit" PidProcessValueLowerLimit ();
-    "input_o_calibration" InputOCalibration ();
-    "input_oi_calibration" InputOiCalibration ();
-    "thermistor_input_calibration" ThermistorInputCalibration ();
-    "analog_output_offset" AnalogOutputOffset ();
-    "digital_output_11_on_delay" DigitalOutput11OnDelay ();
-    "digital_output_11_off_delay" DigitalOutput11OffDelay ();
-    "digital_output_12_on_delay" DigitalOutput12OnDelay ();
-    "digital_output_12_off_delay" DigitalOutput12OffDelay ();
-    "relay_output_on_delay" RelayOutputOnDelay ();
-    "relay_output_off_delay" RelayOutputOffDelay ();
-} }
-
-table! { decode_count decode_count {
-    "network_frequency_setpoint" NetworkFrequencySetpoint ();
-    "network_process_value" NetworkProcessValue ();
-    "output_frequency" OutputFrequency ();
-    "motor_current" MotorCurrent ();
-    "scaled_process_value" ScaledProcessValue ();
-    "output_voltage" OutputVoltage ();
-    "trip_1_output_frequency" Trip1OutputFrequency ();
-    "trip_1_motor_current" Trip1MotorCurrent ();
-    "trip_1_dc_bus_voltage" Trip1DcBusVoltage ();
-    "trip_2_output_frequency" Trip2OutputFrequency ();
-    "trip_2_motor_current" Trip2MotorCurrent ();
-    "trip_2_dc_bus_voltage" Trip2DcBusVoltage ();
-    "trip_3_output_frequency" Trip3OutputFrequency ();
-    "trip_3_motor_current" Trip3MotorCurrent ();
-    "trip_3_dc_bus_voltage" Trip3DcBusVoltage ();
-    "acceleration_time" AccelerationTime ();
-    "acceleration_time_set_2" AccelerationTimeSet2 ();
-    "deceleration_time" DecelerationTime ();
-    "deceleration_time_set_2" DecelerationTimeSet2 ();
-    "input_o_minimum_frequency" InputOMinimumFrequency ();
-    "input_o_maximum_frequency" InputOMaximumFrequency ();
-    "base_frequency" BaseFrequency ();
-    "base_frequency_set_2" BaseFrequencySet2 ();
-    "fixed_frequency_1" FixedFrequency1 ();
-    "fixed_frequency_2" FixedFrequency2 ();
-    "fixed_frequency_3" FixedFrequency3 ();
-    "fixed_frequency_4" FixedFrequency4 ();
-    "fixed_frequency_5" FixedFrequency5 ();
-    "fixed_frequency_6" FixedFrequency6 ();
-    "fixed_frequency_7" FixedFrequency7 ();
-    "fixed_frequency_8" FixedFrequency8 ();
-    "fixed_frequency_9" FixedFrequency9 ();
-    "fixed_frequency_10" FixedFrequency10 ();
-    "fixed_frequency_11" FixedFrequency11 ();
-    "fixed_frequency_12" FixedFrequency12 ();
-    "fixed_frequency_13" FixedFrequency13 ();
-    "fixed_frequency_14" FixedFrequency14 ();
-    "fixed_frequency_15" FixedFrequency15 ();
-    "jog_frequency" JogFrequency ();
-    "manual_boost" ManualBoost ();
-    "manual_boost_set_2" ManualBoostSet2 ();
-    "manual_boost_frequency" ManualBoostFrequency ();
-    "manual_boost_frequency_set_2" ManualBoostFrequencySet2 ();
-    "dc_brake_frequency" DcBrakeFrequency ();
-    "dc_brake_delay" DcBrakeDelay ();
-    "dc_brake_time" DcBrakeTime ();
-    "upper_frequency_limit" UpperFrequencyLimit ();
-    "upper_frequency_limit_set_2" UpperFrequencyLimitSet2 ();
-    "lower_frequency_limit" LowerFrequencyLimit ();
-    "lower_frequency_limit_set_2" LowerFrequencyLimitSet2 ();
-    "jump_frequency_1" JumpFrequency1 ();
-    "jump_frequency_1_width" JumpFrequency1Width ();
-    "jump_frequency_2" JumpFrequency2 ();
-    "jump_frequency_2_width" JumpFrequency2Width ();
-    "jump_frequency_3" JumpFrequency3 ();
-    "jump_frequency_3_width" JumpFrequency3Width ();
-    "pid_proportional_gain" PidProportionalGain ();
-    "pid_integral_time" PidIntegralTime ();
-    "pid_derivative_time" PidDerivativeTime ();
-    "pid_display_factor" PidDisplayFactor ();
-    "pid_output_limit" PidOutputLimit ();
-    "acceleration_time_2" AccelerationTime2 ();
-    "deceleration_time_2" DecelerationTime2 ();
-    "deceleration_time_2_set_2" DecelerationTime2Set2 ();
-    "acceleration_change_frequency" AccelerationChangeFrequency ();
-    "acceleration_change_frequency_set_2" AccelerationChangeFrequencySet2 ();
-    "deceleration_change_frequency" DecelerationChangeFrequency ();
-    "deceleration_change_frequency_set_2" DecelerationChangeFrequencySet2 ();
-    "input_oi_minimum_frequency" InputOiMinimumFrequency ();
-    "input_oi_maximum_frequency" InputOiMaximumFrequency ();
-    "frequency_offset" FrequencyOffset ();
-    "potentiometer_minimum_frequency" PotentiometerMinimumFrequency ();
-    "potentiometer_maximum_frequency" PotentiometerMaximumFrequency ();
-    "allowed_power_failure_time" AllowedPowerFailureTime ();
-    "restart_delay" RestartDelay ();
-    "motor_protection_level" MotorProtectionLevel ();
-    "motor_protection_level_set_2" MotorProtectionLevelSet2 ();
-    "current_limit_level" CurrentLimitLevel ();
-    "current_limit_level_set_2" CurrentLimitLevelSet2 ();
-    "current_limit_time" CurrentLimitTime ();
-    "current_limit_time_set_2" CurrentLimitTimeSet2 ();
-    "start_frequency" StartFrequency ();
-    "carrier_frequency" CarrierFrequency ();
-    "frequency_display_factor" FrequencyDisplayFactor ();
-    "overload_alarm_level" OverloadAlarmLevel ();
-    "overload_alarm_level_set_2" OverloadAlarmLevelSet2 ();
-    "arrival_frequency_acceleration" ArrivalFrequencyAcceleration ();
-    "arrival_frequency_deceleration" ArrivalFrequencyDeceleration ();
-    "pid_deviation_level" PidDeviationLevel ();
-    "pid_process_value_upper_limit" PidProcessValueUpperLimit ();
-    "pid_process_value_lower_limit" PidProcessValueLowerLimit ();
-    "input_o_calibration" InputOCalibration ();
-    "input_oi_calibration" InputOiCalibration ();
-    "thermistor_input_calibration" ThermistorInputCalibration ();
-    "analog_output_offset" AnalogOutputOffset ();
-    "digital_output_11_on_delay" DigitalOutput11OnDelay ();
-    "digital_output_11_off_delay" DigitalOutput11OffDelay ();
-    "digital_output_12_on_delay" DigitalOutput12OnDelay ();
-    "digital_output_12_off_delay" DigitalOutput12OffDelay ();
-    "relay_output_on_delay" RelayOutputOnDelay ();
-    "relay_output_off_delay" RelayOutputOffDelay ();
-} }
-
 table! { decode_plain decode_plain {
     "run_command" RunCommand ();
     "direction_command" DirectionCommand ();
@@ -451,108 +147,6 @@ table! { decode_plain decode_plain {
     "stabilization_constant_set_2" StabilizationConstantSet2 ();
 } }
 
-table! { decode_coded decode_coded {
-} }
-
-table! { decode_mixed decode_count {
-} }
-
-table! { encode_count encode_count {
-    "network_frequency_setpoint" NetworkFrequencySetpoint ();
-    "network_process_value" NetworkProcessValue ();
-    "acceleration_time" AccelerationTime ();
-    "acceleration_time_set_2" AccelerationTimeSet2 ();
-    "deceleration_time" DecelerationTime ();
-    "deceleration_time_set_2" DecelerationTimeSet2 ();
-    "input_o_minimum_frequency" InputOMinimumFrequency ();
-    "input_o_maximum_frequency" InputOMaximumFrequency ();
-    "base_frequency" BaseFrequency ();
-    "base_frequency_set_2" BaseFrequencySet2 ();
-    "fixed_frequency_1" FixedFrequency1 ();
-    "fixed_frequency_2" FixedFrequency2 ();
-    "fixed_frequency_3" FixedFrequency3 ();
-    "fixed_frequency_4" FixedFrequency4 ();
-    "fixed_frequency_5" FixedFrequency5 ();
-    "fixed_frequency_6" FixedFrequency6 ();
-    "fixed_frequency_7" FixedFrequency7 ();
-    "fixed_frequency_8" FixedFrequency8 ();
-    "fixed_frequency_9" FixedFrequency9 ();
-    "fixed_frequency_10" FixedFrequency10 ();
-    "fixed_frequency_11" FixedFrequency11 ();
-    "fixed_frequency_12" FixedFrequency12 ();
-    "fixed_frequency_13" FixedFrequency13 ();
-    "fixed_frequency_14" FixedFrequency14 ();
-    "fixed_frequency_15" FixedFrequency15 ();
-    "jog_frequency" JogFrequency ();
-    "manual_boost" ManualBoost ();
-    "manual_boost_set_2" ManualBoostSet2 ();
-    "manual_boost_frequency" ManualBoostFrequency ();
-    "manual_boost_frequency_set_2" ManualBoostFrequencySet2 ();
-    "dc_brake_frequency" DcBrakeFrequency (DcBrakeFrequency: start_frequency "start_frequency");
-    "dc_brake_delay" DcBrakeDelay ();
-    "dc_brake_time" DcBrakeTime ();
-    "upper_frequency_limit" UpperFrequencyLimit (UpperFrequencyLimit: lower_frequency_limit
-        "lower_frequency_limit" maximum_frequency "maximum_frequency");
-    "upper_frequency_limit_set_2" UpperFrequencyLimitSet2 (UpperFrequencyLimitSet2:
-        lower_frequency_limit_set_2 "lower_frequency_limit_set_2" maximum_frequency_set_2
-        "maximum_frequency_set_2");
-    "lower_frequency_limit" LowerFrequencyLimit (LowerFrequencyLimit: start_frequency "start_frequency"
-        upper_frequency_limit "upper_frequency_limit");
-    "lower_frequency_limit_set_2" LowerFrequencyLimitSet2 (LowerFrequencyLimitSet2: start_frequency
-        "start_frequency" upper_frequency_limit_set_2 "upper_frequency_limit_set_2");
-    "jump_frequency_1" JumpFrequency1 ();
-    "jump_frequency_1_width" JumpFrequency1Width ();
-    "jump_frequency_2" JumpFrequency2 ();
-    "jump_frequency_2_width" JumpFrequency2Width ();
-    "jump_frequency_3" JumpFrequency3 ();
-    "jump_frequency_3_width" JumpFrequency3Width ();
-    "pid_proportional_gain" PidProportionalGain ();
-    "pid_integral_time" PidIntegralTime ();
-    "pid_derivative_time" PidDerivativeTime ();
-    "pid_display_factor" PidDisplayFactor ();
-    "pid_output_limit" PidOutputLimit ();
-    "acceleration_time_2" AccelerationTime2 ();
-    "deceleration_time_2" DecelerationTime2 ();
-    "deceleration_time_2_set_2" DecelerationTime2Set2 ();
-    "acceleration_change_frequency" AccelerationChangeFrequency ();
-    "acceleration_change_frequency_set_2" AccelerationChangeFrequencySet2 ();
-    "deceleration_change_frequency" DecelerationChangeFrequency ();
-    "deceleration_change_frequency_set_2" DecelerationChangeFrequencySet2 ();
-    "input_oi_minimum_frequency" InputOiMinimumFrequency ();
-    "input_oi_maximum_frequency" InputOiMaximumFrequency ();
-    "frequency_offset" FrequencyOffset ();
-    "potentiometer_minimum_frequency" PotentiometerMinimumFrequency ();
-    "potentiometer_maximum_frequency" PotentiometerMaximumFrequency ();
-    "allowed_power_failure_time" AllowedPowerFailureTime ();
-    "restart_delay" RestartDelay ();
-    "motor_protection_level" MotorProtectionLevel ();
-    "motor_protection_level_set_2" MotorProtectionLevelSet2 ();
-    "current_limit_level" CurrentLimitLevel ();
-    "current_limit_level_set_2" CurrentLimitLevelSet2 ();
-    "current_limit_time" CurrentLimitTime ();
-    "current_limit_time_set_2" CurrentLimitTimeSet2 ();
-    "start_frequency" StartFrequency ();
-    "carrier_frequency" CarrierFrequency ();
-    "frequency_display_factor" FrequencyDisplayFactor ();
-    "overload_alarm_level" OverloadAlarmLevel ();
-    "overload_alarm_level_set_2" OverloadAlarmLevelSet2 ();
-    "arrival_frequency_acceleration" ArrivalFrequencyAcceleration ();
-    "arrival_frequency_deceleration" ArrivalFrequencyDeceleration ();
-    "pid_deviation_level" PidDeviationLevel ();
-    "pid_process_value_upper_limit" PidProcessValueUpperLimit ();
-    "pid_process_value_lower_limit" PidProcessValueLowerLimit ();
-    "input_o_calibration" InputOCalibration ();
-    "input_oi_calibration" InputOiCalibration ();
-    "thermistor_input_calibration" ThermistorInputCalibration ();
-    "analog_output_offset" AnalogOutputOffset ();
-    "digital_output_11_on_delay" DigitalOutput11OnDelay ();
-    "digital_output_11_off_delay" DigitalOutput11OffDelay ();
-    "digital_output_12_on_delay" DigitalOutput12OnDelay ();
-    "digital_output_12_off_delay" DigitalOutput12OffDelay ();
-    "relay_output_on_delay" RelayOutputOnDelay ();
-    "relay_output_off_delay" RelayOutputOffDelay ();
-} }
-
 table! { encode_plain encode_plain {
     "run_command" RunCommand ();
     "direction_command" DirectionCommand ();
@@ -664,21 +258,42 @@ table! { encode_plain encode_plain {
     "stabilization_constant_set_2" StabilizationConstantSet2 ();
 } }
 
-table! { encode_coded encode_coded {
-} }
-
-table! { encode_mixed encode_count {
-} }
-
 table! { check check {
+    "run_command" RunCommand ();
+    "direction_command" DirectionCommand ();
+    "external_trip" ExternalTrip ();
+    "trip_reset" TripReset ();
+    "digital_input_1" DigitalInput1 ();
+    "digital_input_2" DigitalInput2 ();
+    "digital_input_3" DigitalInput3 ();
+    "digital_input_4" DigitalInput4 ();
+    "digital_input_5" DigitalInput5 ();
     "network_frequency_setpoint" NetworkFrequencySetpoint ();
+    "inverter_status" InverterStatus ();
     "network_process_value" NetworkProcessValue ();
     "acceleration_time" AccelerationTime ();
     "acceleration_time_set_2" AccelerationTimeSet2 ();
     "deceleration_time" DecelerationTime ();
     "deceleration_time_set_2" DecelerationTimeSet2 ();
+    "motor_direction" MotorDirection ();
+    "frequency_source" FrequencySource ();
+    "frequency_source_set_2" FrequencySourceSet2 ();
+    "run_source" RunSource ();
+    "run_source_set_2" RunSourceSet2 ();
+    "motor_rated_frequency" MotorRatedFrequency (MotorRatedFrequency: maximum_frequency
+        "maximum_frequency");
+    "motor_rated_frequency_set_2" MotorRatedFrequencySet2 (MotorRatedFrequencySet2: maximum_frequency_set_2
+        "maximum_frequency_set_2");
+    "maximum_frequency" MaximumFrequency (MaximumFrequency: motor_rated_frequency "motor_rated_frequency");
+    "maximum_frequency_set_2" MaximumFrequencySet2 (MaximumFrequencySet2: motor_rated_frequency_set_2
+        "motor_rated_frequency_set_2");
+    "at_terminal_selection" AtTerminalSelection ();
     "input_o_minimum_frequency" InputOMinimumFrequency ();
     "input_o_maximum_frequency" InputOMaximumFrequency ();
+    "input_o_minimum_setpoint" InputOMinimumSetpoint ();
+    "input_o_maximum_setpoint" InputOMaximumSetpoint ();
+    "input_o_start_condition" InputOStartCondition ();
+    "analog_input_filter" AnalogInputFilter ();
     "base_frequency" BaseFrequency ();
     "base_frequency_set_2" BaseFrequencySet2 ();
     "fixed_frequency_1" FixedFrequency1 ();
@@ -697,13 +312,23 @@ table! { check check {
     "fixed_frequency_14" FixedFrequency14 ();
     "fixed_frequency_15" FixedFrequency15 ();
     "jog_frequency" JogFrequency ();
+    "jog_stop_mode" JogStopMode ();
+    "boost_mode" BoostMode ();
+    "boost_mode_set_2" BoostModeSet2 ();
     "manual_boost" ManualBoost ();
     "manual_boost_set_2" ManualBoostSet2 ();
     "manual_boost_frequency" ManualBoostFrequency ();
     "manual_boost_frequency_set_2" ManualBoostFrequencySet2 ();
+    "vf_characteristic" VfCharacteristic ();
+    "vf_characteristic_set_2" VfCharacteristicSet2 ();
+    "output_voltage_setting" OutputVoltageSetting ();
+    "output_voltage_setting_set_2" OutputVoltageSettingSet2 ();
+    "dc_brake_enable" DcBrakeEnable ();
     "dc_brake_frequency" DcBrakeFrequency (DcBrakeFrequency: start_frequency "start_frequency");
     "dc_brake_delay" DcBrakeDelay ();
+    "dc_brake_torque" DcBrakeTorque ();
     "dc_brake_time" DcBrakeTime ();
+    "dc_brake_trigger" DcBrakeTrigger ();
     "upper_frequency_limit" UpperFrequencyLimit (UpperFrequencyLimit: lower_frequency_limit
         "lower_frequency_limit" maximum_frequency "maximum_frequency");
     "upper_frequency_limit_set_2" UpperFrequencyLimitSet2 (UpperFrequencyLimitSet2:
@@ -719,119 +344,65 @@ table! { check check {
     "jump_frequency_2_width" JumpFrequency2Width ();
     "jump_frequency_3" JumpFrequency3 ();
     "jump_frequency_3_width" JumpFrequency3Width ();
+    "pid_enable" PidEnable ();
     "pid_proportional_gain" PidProportionalGain ();
     "pid_integral_time" PidIntegralTime ();
     "pid_derivative_time" PidDerivativeTime ();
     "pid_display_factor" PidDisplayFactor ();
+    "pid_process_value_source" PidProcessValueSource ();
+    "pid_inversion" PidInversion ();
     "pid_output_limit" PidOutputLimit ();
+    "avr_mode" AvrMode ();
+    "motor_voltage" MotorVoltage ();
     "acceleration_time_2" AccelerationTime2 ();
     "deceleration_time_2" DecelerationTime2 ();
     "deceleration_time_2_set_2" DecelerationTime2Set2 ();
+    "ramp_2_selection" Ramp2Selection ();
+    "ramp_2_selection_set_2" Ramp2SelectionSet2 ();
     "acceleration_change_frequency" AccelerationChangeFrequency ();
     "acceleration_change_frequency_set_2" AccelerationChangeFrequencySet2 ();
     "deceleration_change_frequency" DecelerationChangeFrequency ();
     "deceleration_change_frequency_set_2" DecelerationChangeFrequencySet2 ();
-    "input_oi_minimum_frequency" InputOiMinimumFrequency ();
-    "input_oi_maximum_frequency" InputOiMaximumFrequency ();
-    "frequency_offset" FrequencyOffset ();
-    "potentiometer_minimum_frequency" PotentiometerMinimumFrequency ();
-    "potentiometer_maximum_frequency" PotentiometerMaximumFrequency ();
-    "allowed_power_failure_time" AllowedPowerFailureTime ();
-    "restart_delay" RestartDelay ();
-    "motor_protection_level" MotorProtectionLevel ();
-    "motor_protection_level_set_2" MotorProtectionLevelSet2 ();
-    "current_limit_level" CurrentLimitLevel ();
-    "current_limit_level_set_2" CurrentLimitLevelSet2 ();
-    "current_limit_time" CurrentLimitTime ();
-    "current_limit_time_set_2" CurrentLimitTimeSet2 ();
-    "start_frequency" StartFrequency ();
-    "carrier_frequency" CarrierFrequency ();
-    "frequency_display_factor" FrequencyDisplayFactor ();
-    "overload_alarm_level" OverloadAlarmLevel ();
-    "overload_alarm_level_set_2" OverloadAlarmLevelSet2 ();
-    "arrival_frequency_acceleration" ArrivalFrequencyAcceleration ();
-    "arrival_frequency_deceleration" ArrivalFrequencyDeceleration ();
-    "pid_deviation_level" PidDeviationLevel ();
-    "pid_process_value_upper_limit" PidProcessValueUpperLimit ();
-    "pid_process_value_lower_limit" PidProcessValueLowerLimit ();
-    "input_o_calibration" InputOCalibration ();
-    "input_oi_calibration" InputOiCalibration ();
-    "thermistor_input_calibration" ThermistorInputCalibration ();
-    "analog_output_offset" AnalogOutputOffset ();
-    "digital_output_11_on_delay" DigitalOutput11OnDelay ();
-    "digital_output_11_off_delay" DigitalOutput11OffDelay ();
-    "digital_output_12_on_delay" DigitalOutput12OnDelay ();
-    "digital_output_12_off_delay" DigitalOutput12OffDelay ();
-    "relay_output_on_delay" RelayOutputOnDelay ();
-    "relay_output_off_delay" RelayOutputOffDelay ();
-    "run_command" RunCommand ();
-    "direction_command" DirectionCommand ();
-    "external_trip" ExternalTrip ();
-    "trip_reset" TripReset ();
-    "digital_input_1" DigitalInput1 ();
-    "digital_input_2" DigitalInput2 ();
-    "digital_input_3" DigitalInput3 ();
-    "digital_input_4" DigitalInput4 ();
-    "digital_input_5" DigitalInput5 ();
-    "inverter_status" InverterStatus ();
-    "motor_direction" MotorDirection ();
-    "frequency_source" FrequencySource ();
-    "frequency_source_set_2" FrequencySourceSet2 ();
-    "run_source" RunSource ();
-    "run_source_set_2" RunSourceSet2 ();
-    "motor_rated_frequency" MotorRatedFrequency (MotorRatedFrequency: maximum_frequency
-        "maximum_frequency");
-    "motor_rated_frequency_set_2" MotorRatedFrequencySet2 (MotorRatedFrequencySet2: maximum_frequency_set_2
-        "maximum_frequency_set_2");
-    "maximum_frequency" MaximumFrequency (MaximumFrequency: motor_rated_frequency "motor_rated_frequency");
-    "maximum_frequency_set_2" MaximumFrequencySet2 (MaximumFrequencySet2: motor_rated_frequency_set_2
-        "motor_rated_frequency_set_2");
-    "at_terminal_selection" AtTerminalSelection ();
-    "input_o_minimum_setpoint" InputOMinimumSetpoint ();
-    "input_o_maximum_setpoint" InputOMaximumSetpoint ();
-    "input_o_start_condition" InputOStartCondition ();
-    "analog_input_filter" AnalogInputFilter ();
-    "jog_stop_mode" JogStopMode ();
-    "boost_mode" BoostMode ();
-    "boost_mode_set_2" BoostModeSet2 ();
-    "vf_characteristic" VfCharacteristic ();
-    "vf_characteristic_set_2" VfCharacteristicSet2 ();
-    "output_voltage_setting" OutputVoltageSetting ();
-    "output_voltage_setting_set_2" OutputVoltageSettingSet2 ();
-    "dc_brake_enable" DcBrakeEnable ();
-    "dc_brake_torque" DcBrakeTorque ();
-    "dc_brake_trigger" DcBrakeTrigger ();
-    "pid_enable" PidEnable ();
-    "pid_process_value_source" PidProcessValueSource ();
-    "pid_inversion" PidInversion ();
-    "avr_mode" AvrMode ();
-    "motor_voltage" MotorVoltage ();
-    "ramp_2_selection" Ramp2Selection ();
-    "ramp_2_selection_set_2" Ramp2SelectionSet2 ();
     "acceleration_curve" AccelerationCurve ();
     "deceleration_curve" DecelerationCurve ();
+    "input_oi_minimum_frequency" InputOiMinimumFrequency ();
+    "input_oi_maximum_frequency" InputOiMaximumFrequency ();
     "input_oi_minimum_setpoint" InputOiMinimumSetpoint ();
     "input_oi_maximum_setpoint" InputOiMaximumSetpoint ();
     "input_oi_start_condition" InputOiStartCondition ();
     "calculation_input_a" CalculationInputA ();
     "calculation_input_b" CalculationInputB ();
     "calculation_operator" CalculationOperator ();
+    "frequency_offset" FrequencyOffset ();
     "frequency_offset_sign" FrequencyOffsetSign ();
+    "potentiometer_minimum_frequency" PotentiometerMinimumFrequency ();
+    "potentiometer_maximum_frequency" PotentiometerMaximumFrequency ();
     "potentiometer_minimum_setpoint" PotentiometerMinimumSetpoint ();
     "potentiometer_maximum_setpoint" PotentiometerMaximumSetpoint ();
     "potentiometer_start_condition" PotentiometerStartCondition ();
     "restart_mode" RestartMode ();
+    "allowed_power_failure_time" AllowedPowerFailureTime ();
+    "restart_delay" RestartDelay ();
     "power_failure_trip_at_standstill" PowerFailureTripAtStandstill ();
     "power_failure_restarts" PowerFailureRestarts ();
+    "motor_protection_level" MotorProtectionLevel ();
+    "motor_protection_level_set_2" MotorProtectionLevelSet2 ();
     "motor_protection_characteristic" MotorProtectionCharacteristic ();
     "motor_protection_characteristic_set_2" MotorProtectionCharacteristicSet2 ();
     "current_limit_mode" CurrentLimitMode ();
     "current_limit_mode_set_2" CurrentLimitModeSet2 ();
+    "current_limit_level" CurrentLimitLevel ();
+    "current_limit_level_set_2" CurrentLimitLevelSet2 ();
+    "current_limit_time" CurrentLimitTime ();
+    "current_limit_time_set_2" CurrentLimitTimeSet2 ();
     "current_limit_source" CurrentLimitSource ();
     "current_limit_source_set_2" CurrentLimitSourceSet2 ();
     "parameter_lock" ParameterLock ();
     "analog_output_gain" AnalogOutputGain ();
+    "start_frequency" StartFrequency ();
+    "carrier_frequency" CarrierFrequency ();
     "initialization_mode" InitializationMode ();
+    "frequency_display_factor" FrequencyDisplayFactor ();
     "stop_key_lock" StopKeyLock ();
     "coast_restart_mode" CoastRestartMode ();
     "network_display" NetworkDisplay ();
@@ -861,11 +432,28 @@ table! { check check {
     "digital_output_11_contact" DigitalOutput11Contact ();
     "digital_output_12_contact" DigitalOutput12Contact ();
     "relay_output_contact" RelayOutputContact ();
+    "overload_alarm_level" OverloadAlarmLevel ();
+    "overload_alarm_level_set_2" OverloadAlarmLevelSet2 ();
+    "arrival_frequency_acceleration" ArrivalFrequencyAcceleration ();
+    "arrival_frequency_deceleration" ArrivalFrequencyDeceleration ();
+    "pid_deviation_level" PidDeviationLevel ();
+    "pid_process_value_upper_limit" PidProcessValueUpperLimit ();
+    "pid_process_value_lower_limit" PidProcessValueLowerLimit ();
+    "input_o_calibration" InputOCalibration ();
+    "input_oi_calibration" InputOiCalibration ();
+    "thermistor_input_calibration" ThermistorInputCalibration ();
+    "analog_output_offset" AnalogOutputOffset ();
     "motor_potentiometer_memory" MotorPotentiometerMemory ();
     "reset_mode" ResetMode ();
     "logic_input_a" LogicInputA ();
     "logic_input_b" LogicInputB ();
     "logic_operator" LogicOperator ();
+    "digital_output_11_on_delay" DigitalOutput11OnDelay ();
+    "digital_output_11_off_delay" DigitalOutput11OffDelay ();
+    "digital_output_12_on_delay" DigitalOutput12OnDelay ();
+    "digital_output_12_off_delay" DigitalOutput12OffDelay ();
+    "relay_output_on_delay" RelayOutputOnDelay ();
+    "relay_output_off_delay" RelayOutputOffDelay ();
     "motor_power" MotorPower ();
     "motor_power_set_2" MotorPowerSet2 ();
     "motor_poles" MotorPoles ();
@@ -965,56 +553,6 @@ table! { name name {
     "motor_power_set_2" MotorPower (enum u16);
     "motor_poles" MotorPoles (enum u16);
     "motor_poles_set_2" MotorPoles (enum u16);
-} }
-
-table! { special special {
-    "upper_frequency_limit" UpperFrequencyLimit (alone);
-    "upper_frequency_limit_set_2" UpperFrequencyLimitSet2 (alone);
-    "lower_frequency_limit" LowerFrequencyLimit (alone);
-    "lower_frequency_limit_set_2" LowerFrequencyLimitSet2 (alone);
-} }
-
-table! { special_name special_name {
-    "upper_frequency_limit" UpperFrequencyLimit (alone);
-    "upper_frequency_limit_set_2" UpperFrequencyLimitSet2 (alone);
-    "lower_frequency_limit" LowerFrequencyLimit (alone);
-    "lower_frequency_limit_set_2" LowerFrequencyLimitSet2 (alone);
-} }
-
-table! { flag flag {
-    "digital_inputs input_1" DigitalInputs (flag u16 input_1 with_input_1);
-    "digital_inputs input_2" DigitalInputs (flag u16 input_2 with_input_2);
-    "digital_inputs input_3" DigitalInputs (flag u16 input_3 with_input_3);
-    "digital_inputs input_4" DigitalInputs (flag u16 input_4 with_input_4);
-    "digital_inputs input_5" DigitalInputs (flag u16 input_5 with_input_5);
-    "digital_outputs output_11" DigitalOutputs (flag u16 output_11 with_output_11);
-    "digital_outputs output_12" DigitalOutputs (flag u16 output_12 with_output_12);
-    "digital_outputs relay_al" DigitalOutputs (flag u16 relay_al with_relay_al);
-} }
-
-table! { flag_name flag_name {
-} }
-
-table! { bits bits {
-} }
-
-table! { words words {
-    "scaled_process_value" ScaledProcessValue (alone);
-    "run_time" RunTime (alone);
-    "power_on_time" PowerOnTime (alone);
-    "trip_1_run_time" Trip1RunTime (alone);
-    "trip_1_power_on_time" Trip1PowerOnTime (alone);
-    "trip_2_run_time" Trip2RunTime (alone);
-    "trip_2_power_on_time" Trip2PowerOnTime (alone);
-    "trip_3_run_time" Trip3RunTime (alone);
-    "trip_3_power_on_time" Trip3PowerOnTime (alone);
-    "acceleration_time" AccelerationTime (alone);
-    "acceleration_time_set_2" AccelerationTimeSet2 (alone);
-    "deceleration_time" DecelerationTime (alone);
-    "deceleration_time_set_2" DecelerationTimeSet2 (alone);
-    "acceleration_time_2" AccelerationTime2 (alone);
-    "deceleration_time_2" DecelerationTime2 (alone);
-    "deceleration_time_2_set_2" DecelerationTime2Set2 (alone);
 } }
 
 table! { address address {
@@ -1271,130 +809,6 @@ table! { address address {
     "motor_poles_set_2" MotorPolesSet2 (at MODICON "modicon" REFERENCE "reference");
     "stabilization_constant" StabilizationConstant (at MODICON "modicon" REFERENCE "reference");
     "stabilization_constant_set_2" StabilizationConstantSet2 (at MODICON "modicon" REFERENCE "reference");
-} }
-
-table! { symbol symbol {
-    "network_frequency_setpoint" NetworkFrequencySetpoint (alone);
-    "network_process_value" NetworkProcessValue (alone);
-    "output_frequency" OutputFrequency (alone);
-    "motor_current" MotorCurrent (alone);
-    "scaled_process_value" ScaledProcessValue (alone);
-    "output_voltage" OutputVoltage (alone);
-    "run_time" RunTime (alone);
-    "power_on_time" PowerOnTime (alone);
-    "trip_1_output_frequency" Trip1OutputFrequency (alone);
-    "trip_1_motor_current" Trip1MotorCurrent (alone);
-    "trip_1_dc_bus_voltage" Trip1DcBusVoltage (alone);
-    "trip_1_run_time" Trip1RunTime (alone);
-    "trip_1_power_on_time" Trip1PowerOnTime (alone);
-    "trip_2_output_frequency" Trip2OutputFrequency (alone);
-    "trip_2_motor_current" Trip2MotorCurrent (alone);
-    "trip_2_dc_bus_voltage" Trip2DcBusVoltage (alone);
-    "trip_2_run_time" Trip2RunTime (alone);
-    "trip_2_power_on_time" Trip2PowerOnTime (alone);
-    "trip_3_output_frequency" Trip3OutputFrequency (alone);
-    "trip_3_motor_current" Trip3MotorCurrent (alone);
-    "trip_3_dc_bus_voltage" Trip3DcBusVoltage (alone);
-    "trip_3_run_time" Trip3RunTime (alone);
-    "trip_3_power_on_time" Trip3PowerOnTime (alone);
-    "acceleration_time" AccelerationTime (alone);
-    "acceleration_time_set_2" AccelerationTimeSet2 (alone);
-    "deceleration_time" DecelerationTime (alone);
-    "deceleration_time_set_2" DecelerationTimeSet2 (alone);
-    "motor_rated_frequency" MotorRatedFrequency (alone);
-    "motor_rated_frequency_set_2" MotorRatedFrequencySet2 (alone);
-    "maximum_frequency" MaximumFrequency (alone);
-    "maximum_frequency_set_2" MaximumFrequencySet2 (alone);
-    "input_o_minimum_frequency" InputOMinimumFrequency (alone);
-    "input_o_maximum_frequency" InputOMaximumFrequency (alone);
-    "input_o_minimum_setpoint" InputOMinimumSetpoint (alone);
-    "input_o_maximum_setpoint" InputOMaximumSetpoint (alone);
-    "base_frequency" BaseFrequency (alone);
-    "base_frequency_set_2" BaseFrequencySet2 (alone);
-    "fixed_frequency_1" FixedFrequency1 (alone);
-    "fixed_frequency_2" FixedFrequency2 (alone);
-    "fixed_frequency_3" FixedFrequency3 (alone);
-    "fixed_frequency_4" FixedFrequency4 (alone);
-    "fixed_frequency_5" FixedFrequency5 (alone);
-    "fixed_frequency_6" FixedFrequency6 (alone);
-    "fixed_frequency_7" FixedFrequency7 (alone);
-    "fixed_frequency_8" FixedFrequency8 (alone);
-    "fixed_frequency_9" FixedFrequency9 (alone);
-    "fixed_frequency_10" FixedFrequency10 (alone);
-    "fixed_frequency_11" FixedFrequency11 (alone);
-    "fixed_frequency_12" FixedFrequency12 (alone);
-    "fixed_frequency_13" FixedFrequency13 (alone);
-    "fixed_frequency_14" FixedFrequency14 (alone);
-    "fixed_frequency_15" FixedFrequency15 (alone);
-    "jog_frequency" JogFrequency (alone);
-    "manual_boost" ManualBoost (alone);
-    "manual_boost_set_2" ManualBoostSet2 (alone);
-    "manual_boost_frequency" ManualBoostFrequency (alone);
-    "manual_boost_frequency_set_2" ManualBoostFrequencySet2 (alone);
-    "output_voltage_setting" OutputVoltageSetting (alone);
-    "output_voltage_setting_set_2" OutputVoltageSettingSet2 (alone);
-    "dc_brake_frequency" DcBrakeFrequency (alone);
-    "dc_brake_delay" DcBrakeDelay (alone);
-    "dc_brake_torque" DcBrakeTorque (alone);
-    "dc_brake_time" DcBrakeTime (alone);
-    "upper_frequency_limit" UpperFrequencyLimit (alone);
-    "upper_frequency_limit_set_2" UpperFrequencyLimitSet2 (alone);
-    "lower_frequency_limit" LowerFrequencyLimit (alone);
-    "lower_frequency_limit_set_2" LowerFrequencyLimitSet2 (alone);
-    "jump_frequency_1" JumpFrequency1 (alone);
-    "jump_frequency_1_width" JumpFrequency1Width (alone);
-    "jump_frequency_2" JumpFrequency2 (alone);
-    "jump_frequency_2_width" JumpFrequency2Width (alone);
-    "jump_frequency_3" JumpFrequency3 (alone);
-    "jump_frequency_3_width" JumpFrequency3Width (alone);
-    "pid_integral_time" PidIntegralTime (alone);
-    "pid_derivative_time" PidDerivativeTime (alone);
-    "pid_output_limit" PidOutputLimit (alone);
-    "acceleration_time_2" AccelerationTime2 (alone);
-    "deceleration_time_2" DecelerationTime2 (alone);
-    "deceleration_time_2_set_2" DecelerationTime2Set2 (alone);
-    "acceleration_change_frequency" AccelerationChangeFrequency (alone);
-    "acceleration_change_frequency_set_2" AccelerationChangeFrequencySet2 (alone);
-    "deceleration_change_frequency" DecelerationChangeFrequency (alone);
-    "deceleration_change_frequency_set_2" DecelerationChangeFrequencySet2 (alone);
-    "input_oi_minimum_frequency" InputOiMinimumFrequency (alone);
-    "input_oi_maximum_frequency" InputOiMaximumFrequency (alone);
-    "input_oi_minimum_setpoint" InputOiMinimumSetpoint (alone);
-    "input_oi_maximum_setpoint" InputOiMaximumSetpoint (alone);
-    "frequency_offset" FrequencyOffset (alone);
-    "potentiometer_minimum_frequency" PotentiometerMinimumFrequency (alone);
-    "potentiometer_maximum_frequency" PotentiometerMaximumFrequency (alone);
-    "potentiometer_minimum_setpoint" PotentiometerMinimumSetpoint (alone);
-    "potentiometer_maximum_setpoint" PotentiometerMaximumSetpoint (alone);
-    "allowed_power_failure_time" AllowedPowerFailureTime (alone);
-    "restart_delay" RestartDelay (alone);
-    "motor_protection_level" MotorProtectionLevel (alone);
-    "motor_protection_level_set_2" MotorProtectionLevelSet2 (alone);
-    "current_limit_level" CurrentLimitLevel (alone);
-    "current_limit_level_set_2" CurrentLimitLevelSet2 (alone);
-    "current_limit_time" CurrentLimitTime (alone);
-    "current_limit_time_set_2" CurrentLimitTimeSet2 (alone);
-    "start_frequency" StartFrequency (alone);
-    "carrier_frequency" CarrierFrequency (alone);
-    "overvoltage_deceleration_level_200v" OvervoltageDecelerationLevel200v (alone);
-    "overvoltage_deceleration_level_400v" OvervoltageDecelerationLevel400v (alone);
-    "overload_alarm_level" OverloadAlarmLevel (alone);
-    "overload_alarm_level_set_2" OverloadAlarmLevelSet2 (alone);
-    "arrival_frequency_acceleration" ArrivalFrequencyAcceleration (alone);
-    "arrival_frequency_deceleration" ArrivalFrequencyDeceleration (alone);
-    "pid_deviation_level" PidDeviationLevel (alone);
-    "pid_process_value_upper_limit" PidProcessValueUpperLimit (alone);
-    "pid_process_value_lower_limit" PidProcessValueLowerLimit (alone);
-    "input_o_calibration" InputOCalibration (alone);
-    "input_oi_calibration" InputOiCalibration (alone);
-    "thermistor_input_calibration" ThermistorInputCalibration (alone);
-    "analog_output_offset" AnalogOutputOffset (alone);
-    "digital_output_11_on_delay" DigitalOutput11OnDelay (alone);
-    "digital_output_11_off_delay" DigitalOutput11OffDelay (alone);
-    "digital_output_12_on_delay" DigitalOutput12OnDelay (alone);
-    "digital_output_12_off_delay" DigitalOutput12OffDelay (alone);
-    "relay_output_on_delay" RelayOutputOnDelay (alone);
-    "relay_output_off_delay" RelayOutputOffDelay (alone);
 } }
 
 table! { read_by_read read {
@@ -1841,6 +1255,574 @@ table! { write_by_write write {
     "stabilization_constant_set_2" StabilizationConstantSet2 (wire () ());
 } }
 
+table! { decode decode {
+    "network_frequency_setpoint" NetworkFrequencySetpoint ();
+    "network_process_value" NetworkProcessValue ();
+    "output_frequency" OutputFrequency ();
+    "motor_current" MotorCurrent ();
+    "scaled_process_value" ScaledProcessValue ();
+    "output_voltage" OutputVoltage ();
+    "trip_1_output_frequency" Trip1OutputFrequency ();
+    "trip_1_motor_current" Trip1MotorCurrent ();
+    "trip_1_dc_bus_voltage" Trip1DcBusVoltage ();
+    "trip_2_output_frequency" Trip2OutputFrequency ();
+    "trip_2_motor_current" Trip2MotorCurrent ();
+    "trip_2_dc_bus_voltage" Trip2DcBusVoltage ();
+    "trip_3_output_frequency" Trip3OutputFrequency ();
+    "trip_3_motor_current" Trip3MotorCurrent ();
+    "trip_3_dc_bus_voltage" Trip3DcBusVoltage ();
+    "acceleration_time" AccelerationTime ();
+    "acceleration_time_set_2" AccelerationTimeSet2 ();
+    "deceleration_time" DecelerationTime ();
+    "deceleration_time_set_2" DecelerationTimeSet2 ();
+    "input_o_minimum_frequency" InputOMinimumFrequency ();
+    "input_o_maximum_frequency" InputOMaximumFrequency ();
+    "base_frequency" BaseFrequency ();
+    "base_frequency_set_2" BaseFrequencySet2 ();
+    "fixed_frequency_1" FixedFrequency1 ();
+    "fixed_frequency_2" FixedFrequency2 ();
+    "fixed_frequency_3" FixedFrequency3 ();
+    "fixed_frequency_4" FixedFrequency4 ();
+    "fixed_frequency_5" FixedFrequency5 ();
+    "fixed_frequency_6" FixedFrequency6 ();
+    "fixed_frequency_7" FixedFrequency7 ();
+    "fixed_frequency_8" FixedFrequency8 ();
+    "fixed_frequency_9" FixedFrequency9 ();
+    "fixed_frequency_10" FixedFrequency10 ();
+    "fixed_frequency_11" FixedFrequency11 ();
+    "fixed_frequency_12" FixedFrequency12 ();
+    "fixed_frequency_13" FixedFrequency13 ();
+    "fixed_frequency_14" FixedFrequency14 ();
+    "fixed_frequency_15" FixedFrequency15 ();
+    "jog_frequency" JogFrequency ();
+    "manual_boost" ManualBoost ();
+    "manual_boost_set_2" ManualBoostSet2 ();
+    "manual_boost_frequency" ManualBoostFrequency ();
+    "manual_boost_frequency_set_2" ManualBoostFrequencySet2 ();
+    "dc_brake_frequency" DcBrakeFrequency ();
+    "dc_brake_delay" DcBrakeDelay ();
+    "dc_brake_time" DcBrakeTime ();
+    "upper_frequency_limit" UpperFrequencyLimit ();
+    "upper_frequency_limit_set_2" UpperFrequencyLimitSet2 ();
+    "lower_frequency_limit" LowerFrequencyLimit ();
+    "lower_frequency_limit_set_2" LowerFrequencyLimitSet2 ();
+    "jump_frequency_1" JumpFrequency1 ();
+    "jump_frequency_1_width" JumpFrequency1Width ();
+    "jump_frequency_2" JumpFrequency2 ();
+    "jump_frequency_2_width" JumpFrequency2Width ();
+    "jump_frequency_3" JumpFrequency3 ();
+    "jump_frequency_3_width" JumpFrequency3Width ();
+    "pid_proportional_gain" PidProportionalGain ();
+    "pid_integral_time" PidIntegralTime ();
+    "pid_derivative_time" PidDerivativeTime ();
+    "pid_display_factor" PidDisplayFactor ();
+    "pid_output_limit" PidOutputLimit ();
+    "acceleration_time_2" AccelerationTime2 ();
+    "deceleration_time_2" DecelerationTime2 ();
+    "deceleration_time_2_set_2" DecelerationTime2Set2 ();
+    "acceleration_change_frequency" AccelerationChangeFrequency ();
+    "acceleration_change_frequency_set_2" AccelerationChangeFrequencySet2 ();
+    "deceleration_change_frequency" DecelerationChangeFrequency ();
+    "deceleration_change_frequency_set_2" DecelerationChangeFrequencySet2 ();
+    "input_oi_minimum_frequency" InputOiMinimumFrequency ();
+    "input_oi_maximum_frequency" InputOiMaximumFrequency ();
+    "frequency_offset" FrequencyOffset ();
+    "potentiometer_minimum_frequency" PotentiometerMinimumFrequency ();
+    "potentiometer_maximum_frequency" PotentiometerMaximumFrequency ();
+    "allowed_power_failure_time" AllowedPowerFailureTime ();
+    "restart_delay" RestartDelay ();
+    "motor_protection_level" MotorProtectionLevel ();
+    "motor_protection_level_set_2" MotorProtectionLevelSet2 ();
+    "current_limit_level" CurrentLimitLevel ();
+    "current_limit_level_set_2" CurrentLimitLevelSet2 ();
+    "current_limit_time" CurrentLimitTime ();
+    "current_limit_time_set_2" CurrentLimitTimeSet2 ();
+    "start_frequency" StartFrequency ();
+    "carrier_frequency" CarrierFrequency ();
+    "frequency_display_factor" FrequencyDisplayFactor ();
+    "overload_alarm_level" OverloadAlarmLevel ();
+    "overload_alarm_level_set_2" OverloadAlarmLevelSet2 ();
+    "arrival_frequency_acceleration" ArrivalFrequencyAcceleration ();
+    "arrival_frequency_deceleration" ArrivalFrequencyDeceleration ();
+    "pid_deviation_level" PidDeviationLevel ();
+    "pid_process_value_upper_limit" PidProcessValueUpperLimit ();
+    "pid_process_value_lower_limit" PidProcessValueLowerLimit ();
+    "input_o_calibration" InputOCalibration ();
+    "input_oi_calibration" InputOiCalibration ();
+    "thermistor_input_calibration" ThermistorInputCalibration ();
+    "analog_output_offset" AnalogOutputOffset ();
+    "digital_output_11_on_delay" DigitalOutput11OnDelay ();
+    "digital_output_11_off_delay" DigitalOutput11OffDelay ();
+    "digital_output_12_on_delay" DigitalOutput12OnDelay ();
+    "digital_output_12_off_delay" DigitalOutput12OffDelay ();
+    "relay_output_on_delay" RelayOutputOnDelay ();
+    "relay_output_off_delay" RelayOutputOffDelay ();
+} }
+
+table! { decode_count decode_count {
+    "network_frequency_setpoint" NetworkFrequencySetpoint ();
+    "network_process_value" NetworkProcessValue ();
+    "output_frequency" OutputFrequency ();
+    "motor_current" MotorCurrent ();
+    "scaled_process_value" ScaledProcessValue ();
+    "output_voltage" OutputVoltage ();
+    "trip_1_output_frequency" Trip1OutputFrequency ();
+    "trip_1_motor_current" Trip1MotorCurrent ();
+    "trip_1_dc_bus_voltage" Trip1DcBusVoltage ();
+    "trip_2_output_frequency" Trip2OutputFrequency ();
+    "trip_2_motor_current" Trip2MotorCurrent ();
+    "trip_2_dc_bus_voltage" Trip2DcBusVoltage ();
+    "trip_3_output_frequency" Trip3OutputFrequency ();
+    "trip_3_motor_current" Trip3MotorCurrent ();
+    "trip_3_dc_bus_voltage" Trip3DcBusVoltage ();
+    "acceleration_time" AccelerationTime ();
+    "acceleration_time_set_2" AccelerationTimeSet2 ();
+    "deceleration_time" DecelerationTime ();
+    "deceleration_time_set_2" DecelerationTimeSet2 ();
+    "input_o_minimum_frequency" InputOMinimumFrequency ();
+    "input_o_maximum_frequency" InputOMaximumFrequency ();
+    "base_frequency" BaseFrequency ();
+    "base_frequency_set_2" BaseFrequencySet2 ();
+    "fixed_frequency_1" FixedFrequency1 ();
+    "fixed_frequency_2" FixedFrequency2 ();
+    "fixed_frequency_3" FixedFrequency3 ();
+    "fixed_frequency_4" FixedFrequency4 ();
+    "fixed_frequency_5" FixedFrequency5 ();
+    "fixed_frequency_6" FixedFrequency6 ();
+    "fixed_frequency_7" FixedFrequency7 ();
+    "fixed_frequency_8" FixedFrequency8 ();
+    "fixed_frequency_9" FixedFrequency9 ();
+    "fixed_frequency_10" FixedFrequency10 ();
+    "fixed_frequency_11" FixedFrequency11 ();
+    "fixed_frequency_12" FixedFrequency12 ();
+    "fixed_frequency_13" FixedFrequency13 ();
+    "fixed_frequency_14" FixedFrequency14 ();
+    "fixed_frequency_15" FixedFrequency15 ();
+    "jog_frequency" JogFrequency ();
+    "manual_boost" ManualBoost ();
+    "manual_boost_set_2" ManualBoostSet2 ();
+    "manual_boost_frequency" ManualBoostFrequency ();
+    "manual_boost_frequency_set_2" ManualBoostFrequencySet2 ();
+    "dc_brake_frequency" DcBrakeFrequency ();
+    "dc_brake_delay" DcBrakeDelay ();
+    "dc_brake_time" DcBrakeTime ();
+    "upper_frequency_limit" UpperFrequencyLimit ();
+    "upper_frequency_limit_set_2" UpperFrequencyLimitSet2 ();
+    "lower_frequency_limit" LowerFrequencyLimit ();
+    "lower_frequency_limit_set_2" LowerFrequencyLimitSet2 ();
+    "jump_frequency_1" JumpFrequency1 ();
+    "jump_frequency_1_width" JumpFrequency1Width ();
+    "jump_frequency_2" JumpFrequency2 ();
+    "jump_frequency_2_width" JumpFrequency2Width ();
+    "jump_frequency_3" JumpFrequency3 ();
+    "jump_frequency_3_width" JumpFrequency3Width ();
+    "pid_proportional_gain" PidProportionalGain ();
+    "pid_integral_time" PidIntegralTime ();
+    "pid_derivative_time" PidDerivativeTime ();
+    "pid_display_factor" PidDisplayFactor ();
+    "pid_output_limit" PidOutputLimit ();
+    "acceleration_time_2" AccelerationTime2 ();
+    "deceleration_time_2" DecelerationTime2 ();
+    "deceleration_time_2_set_2" DecelerationTime2Set2 ();
+    "acceleration_change_frequency" AccelerationChangeFrequency ();
+    "acceleration_change_frequency_set_2" AccelerationChangeFrequencySet2 ();
+    "deceleration_change_frequency" DecelerationChangeFrequency ();
+    "deceleration_change_frequency_set_2" DecelerationChangeFrequencySet2 ();
+    "input_oi_minimum_frequency" InputOiMinimumFrequency ();
+    "input_oi_maximum_frequency" InputOiMaximumFrequency ();
+    "frequency_offset" FrequencyOffset ();
+    "potentiometer_minimum_frequency" PotentiometerMinimumFrequency ();
+    "potentiometer_maximum_frequency" PotentiometerMaximumFrequency ();
+    "allowed_power_failure_time" AllowedPowerFailureTime ();
+    "restart_delay" RestartDelay ();
+    "motor_protection_level" MotorProtectionLevel ();
+    "motor_protection_level_set_2" MotorProtectionLevelSet2 ();
+    "current_limit_level" CurrentLimitLevel ();
+    "current_limit_level_set_2" CurrentLimitLevelSet2 ();
+    "current_limit_time" CurrentLimitTime ();
+    "current_limit_time_set_2" CurrentLimitTimeSet2 ();
+    "start_frequency" StartFrequency ();
+    "carrier_frequency" CarrierFrequency ();
+    "frequency_display_factor" FrequencyDisplayFactor ();
+    "overload_alarm_level" OverloadAlarmLevel ();
+    "overload_alarm_level_set_2" OverloadAlarmLevelSet2 ();
+    "arrival_frequency_acceleration" ArrivalFrequencyAcceleration ();
+    "arrival_frequency_deceleration" ArrivalFrequencyDeceleration ();
+    "pid_deviation_level" PidDeviationLevel ();
+    "pid_process_value_upper_limit" PidProcessValueUpperLimit ();
+    "pid_process_value_lower_limit" PidProcessValueLowerLimit ();
+    "input_o_calibration" InputOCalibration ();
+    "input_oi_calibration" InputOiCalibration ();
+    "thermistor_input_calibration" ThermistorInputCalibration ();
+    "analog_output_offset" AnalogOutputOffset ();
+    "digital_output_11_on_delay" DigitalOutput11OnDelay ();
+    "digital_output_11_off_delay" DigitalOutput11OffDelay ();
+    "digital_output_12_on_delay" DigitalOutput12OnDelay ();
+    "digital_output_12_off_delay" DigitalOutput12OffDelay ();
+    "relay_output_on_delay" RelayOutputOnDelay ();
+    "relay_output_off_delay" RelayOutputOffDelay ();
+} }
+
+table! { encode encode {
+    "network_frequency_setpoint" NetworkFrequencySetpoint ();
+    "network_process_value" NetworkProcessValue ();
+    "acceleration_time" AccelerationTime ();
+    "acceleration_time_set_2" AccelerationTimeSet2 ();
+    "deceleration_time" DecelerationTime ();
+    "deceleration_time_set_2" DecelerationTimeSet2 ();
+    "input_o_minimum_frequency" InputOMinimumFrequency ();
+    "input_o_maximum_frequency" InputOMaximumFrequency ();
+    "base_frequency" BaseFrequency ();
+    "base_frequency_set_2" BaseFrequencySet2 ();
+    "fixed_frequency_1" FixedFrequency1 ();
+    "fixed_frequency_2" FixedFrequency2 ();
+    "fixed_frequency_3" FixedFrequency3 ();
+    "fixed_frequency_4" FixedFrequency4 ();
+    "fixed_frequency_5" FixedFrequency5 ();
+    "fixed_frequency_6" FixedFrequency6 ();
+    "fixed_frequency_7" FixedFrequency7 ();
+    "fixed_frequency_8" FixedFrequency8 ();
+    "fixed_frequency_9" FixedFrequency9 ();
+    "fixed_frequency_10" FixedFrequency10 ();
+    "fixed_frequency_11" FixedFrequency11 ();
+    "fixed_frequency_12" FixedFrequency12 ();
+    "fixed_frequency_13" FixedFrequency13 ();
+    "fixed_frequency_14" FixedFrequency14 ();
+    "fixed_frequency_15" FixedFrequency15 ();
+    "jog_frequency" JogFrequency ();
+    "manual_boost" ManualBoost ();
+    "manual_boost_set_2" ManualBoostSet2 ();
+    "manual_boost_frequency" ManualBoostFrequency ();
+    "manual_boost_frequency_set_2" ManualBoostFrequencySet2 ();
+    "dc_brake_frequency" DcBrakeFrequency (DcBrakeFrequency: start_frequency "start_frequency");
+    "dc_brake_delay" DcBrakeDelay ();
+    "dc_brake_time" DcBrakeTime ();
+    "upper_frequency_limit" UpperFrequencyLimit (UpperFrequencyLimit: lower_frequency_limit
+        "lower_frequency_limit" maximum_frequency "maximum_frequency");
+    "upper_frequency_limit_set_2" UpperFrequencyLimitSet2 (UpperFrequencyLimitSet2:
+        lower_frequency_limit_set_2 "lower_frequency_limit_set_2" maximum_frequency_set_2
+        "maximum_frequency_set_2");
+    "lower_frequency_limit" LowerFrequencyLimit (LowerFrequencyLimit: start_frequency "start_frequency"
+        upper_frequency_limit "upper_frequency_limit");
+    "lower_frequency_limit_set_2" LowerFrequencyLimitSet2 (LowerFrequencyLimitSet2: start_frequency
+        "start_frequency" upper_frequency_limit_set_2 "upper_frequency_limit_set_2");
+    "jump_frequency_1" JumpFrequency1 ();
+    "jump_frequency_1_width" JumpFrequency1Width ();
+    "jump_frequency_2" JumpFrequency2 ();
+    "jump_frequency_2_width" JumpFrequency2Width ();
+    "jump_frequency_3" JumpFrequency3 ();
+    "jump_frequency_3_width" JumpFrequency3Width ();
+    "pid_proportional_gain" PidProportionalGain ();
+    "pid_integral_time" PidIntegralTime ();
+    "pid_derivative_time" PidDerivativeTime ();
+    "pid_display_factor" PidDisplayFactor ();
+    "pid_output_limit" PidOutputLimit ();
+    "acceleration_time_2" AccelerationTime2 ();
+    "deceleration_time_2" DecelerationTime2 ();
+    "deceleration_time_2_set_2" DecelerationTime2Set2 ();
+    "acceleration_change_frequency" AccelerationChangeFrequency ();
+    "acceleration_change_frequency_set_2" AccelerationChangeFrequencySet2 ();
+    "deceleration_change_frequency" DecelerationChangeFrequency ();
+    "deceleration_change_frequency_set_2" DecelerationChangeFrequencySet2 ();
+    "input_oi_minimum_frequency" InputOiMinimumFrequency ();
+    "input_oi_maximum_frequency" InputOiMaximumFrequency ();
+    "frequency_offset" FrequencyOffset ();
+    "potentiometer_minimum_frequency" PotentiometerMinimumFrequency ();
+    "potentiometer_maximum_frequency" PotentiometerMaximumFrequency ();
+    "allowed_power_failure_time" AllowedPowerFailureTime ();
+    "restart_delay" RestartDelay ();
+    "motor_protection_level" MotorProtectionLevel ();
+    "motor_protection_level_set_2" MotorProtectionLevelSet2 ();
+    "current_limit_level" CurrentLimitLevel ();
+    "current_limit_level_set_2" CurrentLimitLevelSet2 ();
+    "current_limit_time" CurrentLimitTime ();
+    "current_limit_time_set_2" CurrentLimitTimeSet2 ();
+    "start_frequency" StartFrequency ();
+    "carrier_frequency" CarrierFrequency ();
+    "frequency_display_factor" FrequencyDisplayFactor ();
+    "overload_alarm_level" OverloadAlarmLevel ();
+    "overload_alarm_level_set_2" OverloadAlarmLevelSet2 ();
+    "arrival_frequency_acceleration" ArrivalFrequencyAcceleration ();
+    "arrival_frequency_deceleration" ArrivalFrequencyDeceleration ();
+    "pid_deviation_level" PidDeviationLevel ();
+    "pid_process_value_upper_limit" PidProcessValueUpperLimit ();
+    "pid_process_value_lower_limit" PidProcessValueLowerLimit ();
+    "input_o_calibration" InputOCalibration ();
+    "input_oi_calibration" InputOiCalibration ();
+    "thermistor_input_calibration" ThermistorInputCalibration ();
+    "analog_output_offset" AnalogOutputOffset ();
+    "digital_output_11_on_delay" DigitalOutput11OnDelay ();
+    "digital_output_11_off_delay" DigitalOutput11OffDelay ();
+    "digital_output_12_on_delay" DigitalOutput12OnDelay ();
+    "digital_output_12_off_delay" DigitalOutput12OffDelay ();
+    "relay_output_on_delay" RelayOutputOnDelay ();
+    "relay_output_off_delay" RelayOutputOffDelay ();
+} }
+
+table! { encode_count encode_count {
+    "network_frequency_setpoint" NetworkFrequencySetpoint ();
+    "network_process_value" NetworkProcessValue ();
+    "acceleration_time" AccelerationTime ();
+    "acceleration_time_set_2" AccelerationTimeSet2 ();
+    "deceleration_time" DecelerationTime ();
+    "deceleration_time_set_2" DecelerationTimeSet2 ();
+    "input_o_minimum_frequency" InputOMinimumFrequency ();
+    "input_o_maximum_frequency" InputOMaximumFrequency ();
+    "base_frequency" BaseFrequency ();
+    "base_frequency_set_2" BaseFrequencySet2 ();
+    "fixed_frequency_1" FixedFrequency1 ();
+    "fixed_frequency_2" FixedFrequency2 ();
+    "fixed_frequency_3" FixedFrequency3 ();
+    "fixed_frequency_4" FixedFrequency4 ();
+    "fixed_frequency_5" FixedFrequency5 ();
+    "fixed_frequency_6" FixedFrequency6 ();
+    "fixed_frequency_7" FixedFrequency7 ();
+    "fixed_frequency_8" FixedFrequency8 ();
+    "fixed_frequency_9" FixedFrequency9 ();
+    "fixed_frequency_10" FixedFrequency10 ();
+    "fixed_frequency_11" FixedFrequency11 ();
+    "fixed_frequency_12" FixedFrequency12 ();
+    "fixed_frequency_13" FixedFrequency13 ();
+    "fixed_frequency_14" FixedFrequency14 ();
+    "fixed_frequency_15" FixedFrequency15 ();
+    "jog_frequency" JogFrequency ();
+    "manual_boost" ManualBoost ();
+    "manual_boost_set_2" ManualBoostSet2 ();
+    "manual_boost_frequency" ManualBoostFrequency ();
+    "manual_boost_frequency_set_2" ManualBoostFrequencySet2 ();
+    "dc_brake_frequency" DcBrakeFrequency (DcBrakeFrequency: start_frequency "start_frequency");
+    "dc_brake_delay" DcBrakeDelay ();
+    "dc_brake_time" DcBrakeTime ();
+    "upper_frequency_limit" UpperFrequencyLimit (UpperFrequencyLimit: lower_frequency_limit
+        "lower_frequency_limit" maximum_frequency "maximum_frequency");
+    "upper_frequency_limit_set_2" UpperFrequencyLimitSet2 (UpperFrequencyLimitSet2:
+        lower_frequency_limit_set_2 "lower_frequency_limit_set_2" maximum_frequency_set_2
+        "maximum_frequency_set_2");
+    "lower_frequency_limit" LowerFrequencyLimit (LowerFrequencyLimit: start_frequency "start_frequency"
+        upper_frequency_limit "upper_frequency_limit");
+    "lower_frequency_limit_set_2" LowerFrequencyLimitSet2 (LowerFrequencyLimitSet2: start_frequency
+        "start_frequency" upper_frequency_limit_set_2 "upper_frequency_limit_set_2");
+    "jump_frequency_1" JumpFrequency1 ();
+    "jump_frequency_1_width" JumpFrequency1Width ();
+    "jump_frequency_2" JumpFrequency2 ();
+    "jump_frequency_2_width" JumpFrequency2Width ();
+    "jump_frequency_3" JumpFrequency3 ();
+    "jump_frequency_3_width" JumpFrequency3Width ();
+    "pid_proportional_gain" PidProportionalGain ();
+    "pid_integral_time" PidIntegralTime ();
+    "pid_derivative_time" PidDerivativeTime ();
+    "pid_display_factor" PidDisplayFactor ();
+    "pid_output_limit" PidOutputLimit ();
+    "acceleration_time_2" AccelerationTime2 ();
+    "deceleration_time_2" DecelerationTime2 ();
+    "deceleration_time_2_set_2" DecelerationTime2Set2 ();
+    "acceleration_change_frequency" AccelerationChangeFrequency ();
+    "acceleration_change_frequency_set_2" AccelerationChangeFrequencySet2 ();
+    "deceleration_change_frequency" DecelerationChangeFrequency ();
+    "deceleration_change_frequency_set_2" DecelerationChangeFrequencySet2 ();
+    "input_oi_minimum_frequency" InputOiMinimumFrequency ();
+    "input_oi_maximum_frequency" InputOiMaximumFrequency ();
+    "frequency_offset" FrequencyOffset ();
+    "potentiometer_minimum_frequency" PotentiometerMinimumFrequency ();
+    "potentiometer_maximum_frequency" PotentiometerMaximumFrequency ();
+    "allowed_power_failure_time" AllowedPowerFailureTime ();
+    "restart_delay" RestartDelay ();
+    "motor_protection_level" MotorProtectionLevel ();
+    "motor_protection_level_set_2" MotorProtectionLevelSet2 ();
+    "current_limit_level" CurrentLimitLevel ();
+    "current_limit_level_set_2" CurrentLimitLevelSet2 ();
+    "current_limit_time" CurrentLimitTime ();
+    "current_limit_time_set_2" CurrentLimitTimeSet2 ();
+    "start_frequency" StartFrequency ();
+    "carrier_frequency" CarrierFrequency ();
+    "frequency_display_factor" FrequencyDisplayFactor ();
+    "overload_alarm_level" OverloadAlarmLevel ();
+    "overload_alarm_level_set_2" OverloadAlarmLevelSet2 ();
+    "arrival_frequency_acceleration" ArrivalFrequencyAcceleration ();
+    "arrival_frequency_deceleration" ArrivalFrequencyDeceleration ();
+    "pid_deviation_level" PidDeviationLevel ();
+    "pid_process_value_upper_limit" PidProcessValueUpperLimit ();
+    "pid_process_value_lower_limit" PidProcessValueLowerLimit ();
+    "input_o_calibration" InputOCalibration ();
+    "input_oi_calibration" InputOiCalibration ();
+    "thermistor_input_calibration" ThermistorInputCalibration ();
+    "analog_output_offset" AnalogOutputOffset ();
+    "digital_output_11_on_delay" DigitalOutput11OnDelay ();
+    "digital_output_11_off_delay" DigitalOutput11OffDelay ();
+    "digital_output_12_on_delay" DigitalOutput12OnDelay ();
+    "digital_output_12_off_delay" DigitalOutput12OffDelay ();
+    "relay_output_on_delay" RelayOutputOnDelay ();
+    "relay_output_off_delay" RelayOutputOffDelay ();
+} }
+
+table! { symbol symbol {
+    "network_frequency_setpoint" NetworkFrequencySetpoint (alone);
+    "network_process_value" NetworkProcessValue (alone);
+    "output_frequency" OutputFrequency (alone);
+    "motor_current" MotorCurrent (alone);
+    "scaled_process_value" ScaledProcessValue (alone);
+    "output_voltage" OutputVoltage (alone);
+    "run_time" RunTime (alone);
+    "power_on_time" PowerOnTime (alone);
+    "trip_1_output_frequency" Trip1OutputFrequency (alone);
+    "trip_1_motor_current" Trip1MotorCurrent (alone);
+    "trip_1_dc_bus_voltage" Trip1DcBusVoltage (alone);
+    "trip_1_run_time" Trip1RunTime (alone);
+    "trip_1_power_on_time" Trip1PowerOnTime (alone);
+    "trip_2_output_frequency" Trip2OutputFrequency (alone);
+    "trip_2_motor_current" Trip2MotorCurrent (alone);
+    "trip_2_dc_bus_voltage" Trip2DcBusVoltage (alone);
+    "trip_2_run_time" Trip2RunTime (alone);
+    "trip_2_power_on_time" Trip2PowerOnTime (alone);
+    "trip_3_output_frequency" Trip3OutputFrequency (alone);
+    "trip_3_motor_current" Trip3MotorCurrent (alone);
+    "trip_3_dc_bus_voltage" Trip3DcBusVoltage (alone);
+    "trip_3_run_time" Trip3RunTime (alone);
+    "trip_3_power_on_time" Trip3PowerOnTime (alone);
+    "acceleration_time" AccelerationTime (alone);
+    "acceleration_time_set_2" AccelerationTimeSet2 (alone);
+    "deceleration_time" DecelerationTime (alone);
+    "deceleration_time_set_2" DecelerationTimeSet2 (alone);
+    "motor_rated_frequency" MotorRatedFrequency (alone);
+    "motor_rated_frequency_set_2" MotorRatedFrequencySet2 (alone);
+    "maximum_frequency" MaximumFrequency (alone);
+    "maximum_frequency_set_2" MaximumFrequencySet2 (alone);
+    "input_o_minimum_frequency" InputOMinimumFrequency (alone);
+    "input_o_maximum_frequency" InputOMaximumFrequency (alone);
+    "input_o_minimum_setpoint" InputOMinimumSetpoint (alone);
+    "input_o_maximum_setpoint" InputOMaximumSetpoint (alone);
+    "base_frequency" BaseFrequency (alone);
+    "base_frequency_set_2" BaseFrequencySet2 (alone);
+    "fixed_frequency_1" FixedFrequency1 (alone);
+    "fixed_frequency_2" FixedFrequency2 (alone);
+    "fixed_frequency_3" FixedFrequency3 (alone);
+    "fixed_frequency_4" FixedFrequency4 (alone);
+    "fixed_frequency_5" FixedFrequency5 (alone);
+    "fixed_frequency_6" FixedFrequency6 (alone);
+    "fixed_frequency_7" FixedFrequency7 (alone);
+    "fixed_frequency_8" FixedFrequency8 (alone);
+    "fixed_frequency_9" FixedFrequency9 (alone);
+    "fixed_frequency_10" FixedFrequency10 (alone);
+    "fixed_frequency_11" FixedFrequency11 (alone);
+    "fixed_frequency_12" FixedFrequency12 (alone);
+    "fixed_frequency_13" FixedFrequency13 (alone);
+    "fixed_frequency_14" FixedFrequency14 (alone);
+    "fixed_frequency_15" FixedFrequency15 (alone);
+    "jog_frequency" JogFrequency (alone);
+    "manual_boost" ManualBoost (alone);
+    "manual_boost_set_2" ManualBoostSet2 (alone);
+    "manual_boost_frequency" ManualBoostFrequency (alone);
+    "manual_boost_frequency_set_2" ManualBoostFrequencySet2 (alone);
+    "output_voltage_setting" OutputVoltageSetting (alone);
+    "output_voltage_setting_set_2" OutputVoltageSettingSet2 (alone);
+    "dc_brake_frequency" DcBrakeFrequency (alone);
+    "dc_brake_delay" DcBrakeDelay (alone);
+    "dc_brake_torque" DcBrakeTorque (alone);
+    "dc_brake_time" DcBrakeTime (alone);
+    "upper_frequency_limit" UpperFrequencyLimit (alone);
+    "upper_frequency_limit_set_2" UpperFrequencyLimitSet2 (alone);
+    "lower_frequency_limit" LowerFrequencyLimit (alone);
+    "lower_frequency_limit_set_2" LowerFrequencyLimitSet2 (alone);
+    "jump_frequency_1" JumpFrequency1 (alone);
+    "jump_frequency_1_width" JumpFrequency1Width (alone);
+    "jump_frequency_2" JumpFrequency2 (alone);
+    "jump_frequency_2_width" JumpFrequency2Width (alone);
+    "jump_frequency_3" JumpFrequency3 (alone);
+    "jump_frequency_3_width" JumpFrequency3Width (alone);
+    "pid_integral_time" PidIntegralTime (alone);
+    "pid_derivative_time" PidDerivativeTime (alone);
+    "pid_output_limit" PidOutputLimit (alone);
+    "acceleration_time_2" AccelerationTime2 (alone);
+    "deceleration_time_2" DecelerationTime2 (alone);
+    "deceleration_time_2_set_2" DecelerationTime2Set2 (alone);
+    "acceleration_change_frequency" AccelerationChangeFrequency (alone);
+    "acceleration_change_frequency_set_2" AccelerationChangeFrequencySet2 (alone);
+    "deceleration_change_frequency" DecelerationChangeFrequency (alone);
+    "deceleration_change_frequency_set_2" DecelerationChangeFrequencySet2 (alone);
+    "input_oi_minimum_frequency" InputOiMinimumFrequency (alone);
+    "input_oi_maximum_frequency" InputOiMaximumFrequency (alone);
+    "input_oi_minimum_setpoint" InputOiMinimumSetpoint (alone);
+    "input_oi_maximum_setpoint" InputOiMaximumSetpoint (alone);
+    "frequency_offset" FrequencyOffset (alone);
+    "potentiometer_minimum_frequency" PotentiometerMinimumFrequency (alone);
+    "potentiometer_maximum_frequency" PotentiometerMaximumFrequency (alone);
+    "potentiometer_minimum_setpoint" PotentiometerMinimumSetpoint (alone);
+    "potentiometer_maximum_setpoint" PotentiometerMaximumSetpoint (alone);
+    "allowed_power_failure_time" AllowedPowerFailureTime (alone);
+    "restart_delay" RestartDelay (alone);
+    "motor_protection_level" MotorProtectionLevel (alone);
+    "motor_protection_level_set_2" MotorProtectionLevelSet2 (alone);
+    "current_limit_level" CurrentLimitLevel (alone);
+    "current_limit_level_set_2" CurrentLimitLevelSet2 (alone);
+    "current_limit_time" CurrentLimitTime (alone);
+    "current_limit_time_set_2" CurrentLimitTimeSet2 (alone);
+    "start_frequency" StartFrequency (alone);
+    "carrier_frequency" CarrierFrequency (alone);
+    "overvoltage_deceleration_level_200v" OvervoltageDecelerationLevel200v (alone);
+    "overvoltage_deceleration_level_400v" OvervoltageDecelerationLevel400v (alone);
+    "overload_alarm_level" OverloadAlarmLevel (alone);
+    "overload_alarm_level_set_2" OverloadAlarmLevelSet2 (alone);
+    "arrival_frequency_acceleration" ArrivalFrequencyAcceleration (alone);
+    "arrival_frequency_deceleration" ArrivalFrequencyDeceleration (alone);
+    "pid_deviation_level" PidDeviationLevel (alone);
+    "pid_process_value_upper_limit" PidProcessValueUpperLimit (alone);
+    "pid_process_value_lower_limit" PidProcessValueLowerLimit (alone);
+    "input_o_calibration" InputOCalibration (alone);
+    "input_oi_calibration" InputOiCalibration (alone);
+    "thermistor_input_calibration" ThermistorInputCalibration (alone);
+    "analog_output_offset" AnalogOutputOffset (alone);
+    "digital_output_11_on_delay" DigitalOutput11OnDelay (alone);
+    "digital_output_11_off_delay" DigitalOutput11OffDelay (alone);
+    "digital_output_12_on_delay" DigitalOutput12OnDelay (alone);
+    "digital_output_12_off_delay" DigitalOutput12OffDelay (alone);
+    "relay_output_on_delay" RelayOutputOnDelay (alone);
+    "relay_output_off_delay" RelayOutputOffDelay (alone);
+} }
+
+table! { words words {
+    "scaled_process_value" ScaledProcessValue (alone);
+    "run_time" RunTime (alone);
+    "power_on_time" PowerOnTime (alone);
+    "trip_1_run_time" Trip1RunTime (alone);
+    "trip_1_power_on_time" Trip1PowerOnTime (alone);
+    "trip_2_run_time" Trip2RunTime (alone);
+    "trip_2_power_on_time" Trip2PowerOnTime (alone);
+    "trip_3_run_time" Trip3RunTime (alone);
+    "trip_3_power_on_time" Trip3PowerOnTime (alone);
+    "acceleration_time" AccelerationTime (alone);
+    "acceleration_time_set_2" AccelerationTimeSet2 (alone);
+    "deceleration_time" DecelerationTime (alone);
+    "deceleration_time_set_2" DecelerationTimeSet2 (alone);
+    "acceleration_time_2" AccelerationTime2 (alone);
+    "deceleration_time_2" DecelerationTime2 (alone);
+    "deceleration_time_2_set_2" DecelerationTime2Set2 (alone);
+} }
+
+table! { flag flag {
+    "digital_inputs input_1" DigitalInputs (flag u16 input_1 with_input_1);
+    "digital_inputs input_2" DigitalInputs (flag u16 input_2 with_input_2);
+    "digital_inputs input_3" DigitalInputs (flag u16 input_3 with_input_3);
+    "digital_inputs input_4" DigitalInputs (flag u16 input_4 with_input_4);
+    "digital_inputs input_5" DigitalInputs (flag u16 input_5 with_input_5);
+    "digital_outputs output_11" DigitalOutputs (flag u16 output_11 with_output_11);
+    "digital_outputs output_12" DigitalOutputs (flag u16 output_12 with_output_12);
+    "digital_outputs relay_al" DigitalOutputs (flag u16 relay_al with_relay_al);
+} }
+
+table! { special special {
+    "upper_frequency_limit" UpperFrequencyLimit (alone);
+    "upper_frequency_limit_set_2" UpperFrequencyLimitSet2 (alone);
+    "lower_frequency_limit" LowerFrequencyLimit (alone);
+    "lower_frequency_limit_set_2" LowerFrequencyLimitSet2 (alone);
+} }
+
+table! { special_name special_name {
+    "upper_frequency_limit" UpperFrequencyLimit (alone);
+    "upper_frequency_limit_set_2" UpperFrequencyLimitSet2 (alone);
+    "lower_frequency_limit" LowerFrequencyLimit (alone);
+    "lower_frequency_limit_set_2" LowerFrequencyLimitSet2 (alone);
+} }
+
 table! { code code {
     "exception function_not_supported" exceptions (named FUNCTION_NOT_SUPPORTED);
     "exception address_not_found" exceptions (named ADDRESS_NOT_FOUND);
@@ -1859,35 +1841,27 @@ table! { command command {
 
 fn run(kind: &str, vector: &runner::Vector) -> Option<runner::Outcome> {
     match kind {
-        "decode" => decode(vector),
-        "encode" => encode(vector),
-        "decode_count" => decode_count(vector)
-            .or_else(|| decode_plain(vector))
-            .or_else(|| decode_coded(vector))
-            .or_else(|| decode_mixed(vector)),
-        "encode_count" => encode_count(vector)
-            .or_else(|| encode_plain(vector))
-            .or_else(|| encode_coded(vector))
-            .or_else(|| encode_mixed(vector)),
+        "decode_count" => decode_plain(vector).or_else(|| decode_count(vector)),
+        "encode_count" => encode_plain(vector).or_else(|| encode_count(vector)),
         "check" => check(vector),
         "name" => name(vector),
-        "special" => special(vector),
-        "special_name" => special_name(vector),
-        "flag" => flag(vector),
-        "flag_name" => flag_name(vector),
-        "bits" => bits(vector),
-        "words" => words(vector),
-        "address" => runner::listed(vector, device::POINTS, address(vector)),
-        "symbol" => symbol(vector),
-        "command" => command(vector),
-        "documented" => documented(vector),
         "read" => read_by_read(vector),
         "write" => write_by_write(vector),
+        "decode" => decode(vector),
+        "encode" => encode(vector),
+        "symbol" => symbol(vector),
+        "words" => words(vector),
+        "flag" => flag(vector),
+        "special" => special(vector),
+        "special_name" => special_name(vector),
+        "documented" => documented(vector),
+        "command" => command(vector),
+        "address" => runner::listed(vector, device::POINTS, address(vector)),
         "code" => {
             code(vector).map(|found| found.and_then(|()| frames::named(vector, &device::PROFILE)))
         }
-        "build" | "printed_build" => Some(frames::build(vector, &device::PROFILE)),
-        "reply" | "printed_reply" => Some(frames::reply(vector)),
+        "build" => Some(frames::build(vector, &device::PROFILE)),
+        "reply" => Some(frames::reply(vector)),
         "block" => Some(frames::block(vector, device::BLOCKS)),
         _ => None,
     }

@@ -9,23 +9,6 @@ use fieldscribe_conformance::{self as runner, table};
 
 use ::jumo_controller as device;
 
-table! { decode decode {
-    "setpoint_1" Setpoint1 ();
-    "setpoint_2" Setpoint2 ();
-    "proportional_band_1_set_2" ProportionalBand1Set2 ();
-    "value_00ce" Value00ce ();
-} }
-
-table! { encode encode {
-    "setpoint_1" Setpoint1 ();
-    "setpoint_2" Setpoint2 ();
-    "proportional_band_1_set_2" ProportionalBand1Set2 ();
-    "value_0077" Value0077 ();
-} }
-
-table! { decode_count decode_count {
-} }
-
 table! { decode_plain decode_plain {
     "program_status" ProgramStatus ();
     "controller_status" ControllerStatus ();
@@ -46,50 +29,6 @@ table! { decode_plain decode_plain {
     "controller_commands" ControllerCommands ();
     "operation_commands" OperationCommands ();
     "timer_commands" TimerCommands ();
-} }
-
-table! { decode_coded decode_coded {
-} }
-
-table! { decode_mixed decode_count {
-} }
-
-table! { encode_count encode_count {
-} }
-
-table! { encode_plain encode_plain {
-    "binary_output_control" BinaryOutputControl ();
-    "program_controller_commands" ProgramControllerCommands ();
-    "controller_commands" ControllerCommands ();
-    "operation_commands" OperationCommands ();
-    "timer_commands" TimerCommands ();
-} }
-
-table! { encode_coded encode_coded {
-} }
-
-table! { encode_mixed encode_count {
-} }
-
-table! { check check {
-    "binary_output_control" BinaryOutputControl ();
-    "program_controller_commands" ProgramControllerCommands ();
-    "controller_commands" ControllerCommands ();
-    "operation_commands" OperationCommands ();
-    "timer_commands" TimerCommands ();
-    "setpoint_1" Setpoint1 ();
-    "setpoint_2" Setpoint2 ();
-    "proportional_band_1_set_2" ProportionalBand1Set2 ();
-    "value_0077" Value0077 ();
-} }
-
-table! { name name {
-} }
-
-table! { special special {
-} }
-
-table! { special_name special_name {
 } }
 
 table! { flag flag {
@@ -169,28 +108,6 @@ table! { flag flag {
     "timer_commands hold_timer_2" TimerCommands (flag u16 hold_timer_2 with_hold_timer_2);
 } }
 
-table! { flag_name flag_name {
-} }
-
-table! { bits bits {
-} }
-
-table! { words words {
-    "program_run_time" ProgramRunTime (alone);
-    "program_remaining_time" ProgramRemainingTime (alone);
-    "section_run_time" SectionRunTime (alone);
-    "section_remaining_time" SectionRemainingTime (alone);
-    "timer_1_run_time" Timer1RunTime (alone);
-    "timer_2_run_time" Timer2RunTime (alone);
-    "timer_3_run_time" Timer3RunTime (alone);
-    "timer_4_run_time" Timer4RunTime (alone);
-    "setpoint_1" Setpoint1 (alone);
-    "setpoint_2" Setpoint2 (alone);
-    "proportional_band_1_set_2" ProportionalBand1Set2 (alone);
-    "value_0077" Value0077 (alone);
-    "value_00ce" Value00ce (alone);
-} }
-
 table! { address address {
     "program_status" ProgramStatus (at);
     "controller_status" ControllerStatus (at);
@@ -216,15 +133,6 @@ table! { address address {
     "controller_commands" ControllerCommands (at);
     "operation_commands" OperationCommands (at);
     "timer_commands" TimerCommands (at);
-} }
-
-table! { symbol symbol {
-    "program_run_time" ProgramRunTime (alone);
-    "program_remaining_time" ProgramRemainingTime (alone);
-} }
-
-table! { fixed fixed {
-    "binary_output_control" BinaryOutputControl (alone);
 } }
 
 table! { read_by_read read {
@@ -253,6 +161,30 @@ table! { read_by_read read {
     "timer_commands" TimerCommands (wire);
 } }
 
+table! { encode_plain encode_plain {
+    "binary_output_control" BinaryOutputControl ();
+    "program_controller_commands" ProgramControllerCommands ();
+    "controller_commands" ControllerCommands ();
+    "operation_commands" OperationCommands ();
+    "timer_commands" TimerCommands ();
+} }
+
+table! { check check {
+    "binary_output_control" BinaryOutputControl ();
+    "setpoint_1" Setpoint1 ();
+    "setpoint_2" Setpoint2 ();
+    "proportional_band_1_set_2" ProportionalBand1Set2 ();
+    "value_0077" Value0077 ();
+    "program_controller_commands" ProgramControllerCommands ();
+    "controller_commands" ControllerCommands ();
+    "operation_commands" OperationCommands ();
+    "timer_commands" TimerCommands ();
+} }
+
+table! { fixed fixed {
+    "binary_output_control" BinaryOutputControl (alone);
+} }
+
 table! { write_by_write write {
     "binary_output_control" BinaryOutputControl (wire () ());
     "setpoint_1" Setpoint1 (wire () ());
@@ -262,6 +194,41 @@ table! { write_by_write write {
     "controller_commands" ControllerCommands (wire () ());
     "operation_commands" OperationCommands (wire () ());
     "timer_commands" TimerCommands (wire () ());
+} }
+
+table! { words words {
+    "program_run_time" ProgramRunTime (alone);
+    "program_remaining_time" ProgramRemainingTime (alone);
+    "section_run_time" SectionRunTime (alone);
+    "section_remaining_time" SectionRemainingTime (alone);
+    "timer_1_run_time" Timer1RunTime (alone);
+    "timer_2_run_time" Timer2RunTime (alone);
+    "timer_3_run_time" Timer3RunTime (alone);
+    "timer_4_run_time" Timer4RunTime (alone);
+    "setpoint_1" Setpoint1 (alone);
+    "setpoint_2" Setpoint2 (alone);
+    "proportional_band_1_set_2" ProportionalBand1Set2 (alone);
+    "value_0077" Value0077 (alone);
+    "value_00ce" Value00ce (alone);
+} }
+
+table! { symbol symbol {
+    "program_run_time" ProgramRunTime (alone);
+    "program_remaining_time" ProgramRemainingTime (alone);
+} }
+
+table! { decode decode {
+    "setpoint_1" Setpoint1 ();
+    "setpoint_2" Setpoint2 ();
+    "proportional_band_1_set_2" ProportionalBand1Set2 ();
+    "value_00ce" Value00ce ();
+} }
+
+table! { encode encode {
+    "setpoint_1" Setpoint1 ();
+    "setpoint_2" Setpoint2 ();
+    "proportional_band_1_set_2" ProportionalBand1Set2 ();
+    "value_0077" Value0077 ();
 } }
 
 table! { write_by_write_only write_only {
@@ -276,34 +243,23 @@ table! { code code {
 
 fn run(kind: &str, vector: &runner::Vector) -> Option<runner::Outcome> {
     match kind {
+        "decode_count" => decode_plain(vector),
+        "flag" => flag(vector),
+        "read" => read_by_read(vector),
+        "encode_count" => encode_plain(vector),
+        "check" => check(vector),
+        "fixed" => fixed(vector),
+        "write" => write_by_write(vector).or_else(|| write_by_write_only(vector)),
+        "words" => words(vector),
+        "symbol" => symbol(vector),
         "decode" => decode(vector),
         "encode" => encode(vector),
-        "decode_count" => decode_count(vector)
-            .or_else(|| decode_plain(vector))
-            .or_else(|| decode_coded(vector))
-            .or_else(|| decode_mixed(vector)),
-        "encode_count" => encode_count(vector)
-            .or_else(|| encode_plain(vector))
-            .or_else(|| encode_coded(vector))
-            .or_else(|| encode_mixed(vector)),
-        "check" => check(vector),
-        "name" => name(vector),
-        "special" => special(vector),
-        "special_name" => special_name(vector),
-        "flag" => flag(vector),
-        "flag_name" => flag_name(vector),
-        "bits" => bits(vector),
-        "words" => words(vector),
         "address" => runner::listed(vector, device::POINTS, address(vector)),
-        "symbol" => symbol(vector),
-        "fixed" => fixed(vector),
-        "read" => read_by_read(vector),
-        "write" => write_by_write(vector).or_else(|| write_by_write_only(vector)),
         "code" => {
             code(vector).map(|found| found.and_then(|()| frames::named(vector, &device::PROFILE)))
         }
-        "build" | "printed_build" => Some(frames::build(vector, &device::PROFILE)),
-        "reply" | "printed_reply" => Some(frames::reply(vector)),
+        "build" => Some(frames::build(vector, &device::PROFILE)),
+        "reply" => Some(frames::reply(vector)),
         "block" => Some(frames::block(vector, device::BLOCKS)),
         _ => None,
     }

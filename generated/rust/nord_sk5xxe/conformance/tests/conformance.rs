@@ -9,15 +9,6 @@ use fieldscribe_conformance::{self as runner, table};
 
 use ::nord_sk5xxe as device;
 
-table! { decode decode {
-} }
-
-table! { encode encode {
-} }
-
-table! { decode_count decode_count {
-} }
-
 table! { decode_plain decode_plain {
     "control_word" ControlWord ();
     "setpoint_1" Setpoint1 ();
@@ -33,15 +24,6 @@ table! { decode_plain decode_plain {
     "actual_value_5" ActualValue5 ();
 } }
 
-table! { decode_coded decode_coded {
-} }
-
-table! { decode_mixed decode_count {
-} }
-
-table! { encode_count encode_count {
-} }
-
 table! { encode_plain encode_plain {
     "control_word" ControlWord ();
     "setpoint_1" Setpoint1 ();
@@ -51,12 +33,6 @@ table! { encode_plain encode_plain {
     "setpoint_5" Setpoint5 ();
 } }
 
-table! { encode_coded encode_coded {
-} }
-
-table! { encode_mixed encode_count {
-} }
-
 table! { check check {
     "control_word" ControlWord ();
     "setpoint_1" Setpoint1 ();
@@ -64,15 +40,6 @@ table! { check check {
     "setpoint_3" Setpoint3 ();
     "setpoint_4" Setpoint4 ();
     "setpoint_5" Setpoint5 ();
-} }
-
-table! { name name {
-} }
-
-table! { special special {
-} }
-
-table! { special_name special_name {
 } }
 
 table! { flag flag {
@@ -121,10 +88,19 @@ table! { flag_name flag_name {
     "status_word parameter_set set_4" StatusWord (value PARAMETER_SET_SET_4);
 } }
 
-table! { bits bits {
-} }
-
-table! { words words {
+table! { place place {
+    "control_word" ControlWord (alone);
+    "setpoint_1" Setpoint1 (alone);
+    "setpoint_2" Setpoint2 (alone);
+    "setpoint_3" Setpoint3 (alone);
+    "setpoint_4" Setpoint4 (alone);
+    "setpoint_5" Setpoint5 (alone);
+    "status_word" StatusWord (alone);
+    "actual_value_1" ActualValue1 (alone);
+    "actual_value_2" ActualValue2 (alone);
+    "actual_value_3" ActualValue3 (alone);
+    "actual_value_4" ActualValue4 (alone);
+    "actual_value_5" ActualValue5 (alone);
 } }
 
 table! { address address {
@@ -140,24 +116,6 @@ table! { address address {
     "actual_value_3" ActualValue3 (at);
     "actual_value_4" ActualValue4 (at);
     "actual_value_5" ActualValue5 (at);
-} }
-
-table! { symbol symbol {
-} }
-
-table! { place place {
-    "control_word" ControlWord (alone);
-    "setpoint_1" Setpoint1 (alone);
-    "setpoint_2" Setpoint2 (alone);
-    "setpoint_3" Setpoint3 (alone);
-    "setpoint_4" Setpoint4 (alone);
-    "setpoint_5" Setpoint5 (alone);
-    "status_word" StatusWord (alone);
-    "actual_value_1" ActualValue1 (alone);
-    "actual_value_2" ActualValue2 (alone);
-    "actual_value_3" ActualValue3 (alone);
-    "actual_value_4" ActualValue4 (alone);
-    "actual_value_5" ActualValue5 (alone);
 } }
 
 table! { read_by_read read {
@@ -229,33 +187,19 @@ table! { command command {
 
 fn run(kind: &str, vector: &runner::Vector) -> Option<runner::Outcome> {
     match kind {
-        "decode" => decode(vector),
-        "encode" => encode(vector),
-        "decode_count" => decode_count(vector)
-            .or_else(|| decode_plain(vector))
-            .or_else(|| decode_coded(vector))
-            .or_else(|| decode_mixed(vector)),
-        "encode_count" => encode_count(vector)
-            .or_else(|| encode_plain(vector))
-            .or_else(|| encode_coded(vector))
-            .or_else(|| encode_mixed(vector)),
+        "decode_count" => decode_plain(vector),
+        "encode_count" => encode_plain(vector),
         "check" => check(vector),
-        "name" => name(vector),
-        "special" => special(vector),
-        "special_name" => special_name(vector),
         "flag" => flag(vector),
         "flag_name" => flag_name(vector),
-        "bits" => bits(vector),
-        "words" => words(vector),
-        "address" => runner::listed(vector, device::POINTS, address(vector)),
-        "symbol" => symbol(vector),
         "place" => place(vector),
-        "command" => command(vector),
-        "documented" => documented(vector),
         "read" => read_by_read(vector),
         "write" => write_by_write(vector),
-        "build" | "printed_build" => Some(frames::build(vector, &device::PROFILE)),
-        "reply" | "printed_reply" => Some(frames::reply(vector)),
+        "documented" => documented(vector),
+        "command" => command(vector),
+        "address" => runner::listed(vector, device::POINTS, address(vector)),
+        "build" => Some(frames::build(vector, &device::PROFILE)),
+        "reply" => Some(frames::reply(vector)),
         "block" => Some(frames::block(vector, device::BLOCKS)),
         _ => None,
     }

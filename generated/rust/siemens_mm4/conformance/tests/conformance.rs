@@ -9,25 +9,6 @@ use fieldscribe_conformance::{self as runner, table};
 
 use ::siemens_mm4 as device;
 
-table! { decode decode {
-    "main_actual_value" MainActualValue (MainActualValue: uss_normalisation "uss_normalisation"
-        reference_frequency "reference_frequency");
-    "maximum_frequency" MaximumFrequency ();
-    "reference_frequency" ReferenceFrequency ();
-} }
-
-table! { encode encode {
-    "main_setpoint" MainSetpoint (MainSetpoint: uss_normalisation "uss_normalisation" reference_frequency
-        "reference_frequency");
-    "maximum_frequency" MaximumFrequency ();
-    "reference_frequency" ReferenceFrequency ();
-} }
-
-table! { decode_count decode_count {
-    "main_actual_value" MainActualValue (MainActualValue: uss_normalisation "uss_normalisation"
-        reference_frequency "reference_frequency");
-} }
-
 table! { decode_plain decode_plain {
     "user_access_level" UserAccessLevel ();
     "inverter_status_word" InverterStatusWord ();
@@ -63,19 +44,6 @@ table! { decode_plain decode_plain {
     "uss_rs485_answer_source_index_3" UssRs485AnswerSourceIndex3 ();
     "status_word" StatusWord ();
     "second_status_word" SecondStatusWord ();
-} }
-
-table! { decode_coded decode_coded {
-    "uss_telegram_off_time_index_0" UssTelegramOffTimeIndex0 ();
-    "uss_telegram_off_time_index_1" UssTelegramOffTimeIndex1 ();
-} }
-
-table! { decode_mixed decode_count {
-} }
-
-table! { encode_count encode_count {
-    "main_setpoint" MainSetpoint (MainSetpoint: uss_normalisation "uss_normalisation" reference_frequency
-        "reference_frequency");
 } }
 
 table! { encode_plain encode_plain {
@@ -114,24 +82,16 @@ table! { encode_plain encode_plain {
     "second_control_word" SecondControlWord ();
 } }
 
-table! { encode_coded encode_coded {
-    "uss_telegram_off_time_index_0" UssTelegramOffTimeIndex0 ();
-    "uss_telegram_off_time_index_1" UssTelegramOffTimeIndex1 ();
-} }
-
-table! { encode_mixed encode_count {
-} }
-
 table! { check check {
-    "main_setpoint" MainSetpoint (MainSetpoint: uss_normalisation "uss_normalisation" reference_frequency
-        "reference_frequency");
     "user_access_level" UserAccessLevel ();
     "command_source" CommandSource ();
     "p0731_source" P0731Source ();
     "main_setpoint_source" MainSetpointSource ();
+    "maximum_frequency" MaximumFrequency ();
     "jog_time_selection_source" JogTimeSelectionSource ();
     "dc_braking_source" DcBrakingSource ();
     "output_phase_sequence" OutputPhaseSequence ();
+    "reference_frequency" ReferenceFrequency ();
     "uss_normalisation_rs485" UssNormalisationRs485 ();
     "uss_normalisation_rs232" UssNormalisationRs232 ();
     "uss_baud_rate_index_0" UssBaudRateIndex0 ();
@@ -148,6 +108,8 @@ table! { check check {
     "uss_pzd_length_index_1_mm440" UssPzdLengthIndex1Mm440 ();
     "uss_pkw_length_index_0" UssPkwLengthIndex0 ();
     "uss_pkw_length_index_1" UssPkwLengthIndex1 ();
+    "uss_telegram_off_time_index_0" UssTelegramOffTimeIndex0 ();
+    "uss_telegram_off_time_index_1" UssTelegramOffTimeIndex1 ();
     "uss_rs232_answer_source_index_0" UssRs232AnswerSourceIndex0 ();
     "uss_rs232_answer_source_index_1" UssRs232AnswerSourceIndex1 ();
     "uss_rs232_answer_source_index_2" UssRs232AnswerSourceIndex2 ();
@@ -157,11 +119,9 @@ table! { check check {
     "uss_rs485_answer_source_index_2" UssRs485AnswerSourceIndex2 ();
     "uss_rs485_answer_source_index_3" UssRs485AnswerSourceIndex3 ();
     "control_word" ControlWord ();
+    "main_setpoint" MainSetpoint (MainSetpoint: uss_normalisation "uss_normalisation" reference_frequency
+        "reference_frequency");
     "second_control_word" SecondControlWord ();
-    "uss_telegram_off_time_index_0" UssTelegramOffTimeIndex0 ();
-    "uss_telegram_off_time_index_1" UssTelegramOffTimeIndex1 ();
-    "maximum_frequency" MaximumFrequency ();
-    "reference_frequency" ReferenceFrequency ();
 } }
 
 table! { name name {
@@ -173,152 +133,6 @@ table! { name name {
     "uss_normalisation_rs232" UssNormalisation (enum u16);
     "uss_pkw_length_index_0" UssPkwLength (enum u16);
     "uss_pkw_length_index_1" UssPkwLength (enum u16);
-} }
-
-table! { special special {
-    "uss_telegram_off_time_index_0" UssTelegramOffTimeIndex0 (alone);
-    "uss_telegram_off_time_index_1" UssTelegramOffTimeIndex1 (alone);
-} }
-
-table! { special_name special_name {
-    "uss_telegram_off_time_index_0" UssTelegramOffTimeIndex0 (alone);
-    "uss_telegram_off_time_index_1" UssTelegramOffTimeIndex1 (alone);
-} }
-
-table! { flag flag {
-    "inverter_status_word ready_to_switch_on" InverterStatusWord (flag u16 ready_to_switch_on
-        with_ready_to_switch_on);
-    "inverter_status_word ready_to_run" InverterStatusWord (flag u16 ready_to_run with_ready_to_run);
-    "inverter_status_word operation_enabled" InverterStatusWord (flag u16 operation_enabled
-        with_operation_enabled);
-    "inverter_status_word fault" InverterStatusWord (flag u16 fault with_fault);
-    "inverter_status_word off2_pending" InverterStatusWord (flag u16 off2_pending with_off2_pending);
-    "inverter_status_word off3_pending" InverterStatusWord (flag u16 off3_pending with_off3_pending);
-    "inverter_status_word switch_on_inhibit" InverterStatusWord (flag u16 switch_on_inhibit
-        with_switch_on_inhibit);
-    "inverter_status_word warning" InverterStatusWord (flag u16 warning with_warning);
-    "inverter_status_word deviation" InverterStatusWord (flag u16 deviation with_deviation);
-    "inverter_status_word control_requested" InverterStatusWord (flag u16 control_requested
-        with_control_requested);
-    "inverter_status_word frequency_reached" InverterStatusWord (flag u16 frequency_reached
-        with_frequency_reached);
-    "inverter_status_word current_limit_warning" InverterStatusWord (flag u16 current_limit_warning
-        with_current_limit_warning);
-    "inverter_status_word holding_brake_active" InverterStatusWord (flag u16 holding_brake_active
-        with_holding_brake_active);
-    "inverter_status_word motor_overload" InverterStatusWord (flag u16 motor_overload with_motor_overload);
-    "inverter_status_word clockwise" InverterStatusWord (flag u16 clockwise with_clockwise);
-    "inverter_status_word inverter_overload" InverterStatusWord (flag u16 inverter_overload
-        with_inverter_overload);
-    "p0731_source source_parameter" P0731Source (flag u32 source_parameter with_source_parameter);
-    "p0731_source source_bit" P0731Source (flag u32 source_bit with_source_bit);
-    "jog_time_selection_source source_parameter" JogTimeSelectionSource (flag u32 source_parameter
-        with_source_parameter);
-    "jog_time_selection_source source_bit" JogTimeSelectionSource (flag u32 source_bit with_source_bit);
-    "dc_braking_source source_parameter" DcBrakingSource (flag u32 source_parameter with_source_parameter);
-    "dc_braking_source source_bit" DcBrakingSource (flag u32 source_bit with_source_bit);
-    "uss_rs232_answer_source_index_0 source_parameter" UssRs232AnswerSourceIndex0 (flag u32
-        source_parameter with_source_parameter);
-    "uss_rs232_answer_source_index_0 source_bit" UssRs232AnswerSourceIndex0 (flag u32 source_bit
-        with_source_bit);
-    "uss_rs232_answer_source_index_1 source_parameter" UssRs232AnswerSourceIndex1 (flag u32
-        source_parameter with_source_parameter);
-    "uss_rs232_answer_source_index_1 source_bit" UssRs232AnswerSourceIndex1 (flag u32 source_bit
-        with_source_bit);
-    "uss_rs232_answer_source_index_2 source_parameter" UssRs232AnswerSourceIndex2 (flag u32
-        source_parameter with_source_parameter);
-    "uss_rs232_answer_source_index_2 source_bit" UssRs232AnswerSourceIndex2 (flag u32 source_bit
-        with_source_bit);
-    "uss_rs232_answer_source_index_3 source_parameter" UssRs232AnswerSourceIndex3 (flag u32
-        source_parameter with_source_parameter);
-    "uss_rs232_answer_source_index_3 source_bit" UssRs232AnswerSourceIndex3 (flag u32 source_bit
-        with_source_bit);
-    "uss_rs485_answer_source_index_0 source_parameter" UssRs485AnswerSourceIndex0 (flag u32
-        source_parameter with_source_parameter);
-    "uss_rs485_answer_source_index_0 source_bit" UssRs485AnswerSourceIndex0 (flag u32 source_bit
-        with_source_bit);
-    "uss_rs485_answer_source_index_1 source_parameter" UssRs485AnswerSourceIndex1 (flag u32
-        source_parameter with_source_parameter);
-    "uss_rs485_answer_source_index_1 source_bit" UssRs485AnswerSourceIndex1 (flag u32 source_bit
-        with_source_bit);
-    "uss_rs485_answer_source_index_2 source_parameter" UssRs485AnswerSourceIndex2 (flag u32
-        source_parameter with_source_parameter);
-    "uss_rs485_answer_source_index_2 source_bit" UssRs485AnswerSourceIndex2 (flag u32 source_bit
-        with_source_bit);
-    "uss_rs485_answer_source_index_3 source_parameter" UssRs485AnswerSourceIndex3 (flag u32
-        source_parameter with_source_parameter);
-    "uss_rs485_answer_source_index_3 source_bit" UssRs485AnswerSourceIndex3 (flag u32 source_bit
-        with_source_bit);
-    "control_word on" ControlWord (flag u16 on with_on);
-    "control_word off2" ControlWord (flag u16 off2 with_off2);
-    "control_word off3" ControlWord (flag u16 off3 with_off3);
-    "control_word enable_operation" ControlWord (flag u16 enable_operation with_enable_operation);
-    "control_word ramp_generator_operating" ControlWord (flag u16 ramp_generator_operating
-        with_ramp_generator_operating);
-    "control_word enable_ramp_generator" ControlWord (flag u16 enable_ramp_generator
-        with_enable_ramp_generator);
-    "control_word enable_setpoint" ControlWord (flag u16 enable_setpoint with_enable_setpoint);
-    "control_word acknowledge_fault" ControlWord (flag u16 acknowledge_fault with_acknowledge_fault);
-    "control_word jog_clockwise" ControlWord (flag u16 jog_clockwise with_jog_clockwise);
-    "control_word jog_counter_clockwise" ControlWord (flag u16 jog_counter_clockwise
-        with_jog_counter_clockwise);
-    "control_word setpoints_valid" ControlWord (flag u16 setpoints_valid with_setpoints_valid);
-    "control_word invert_setpoint" ControlWord (flag u16 invert_setpoint with_invert_setpoint);
-    "control_word free" ControlWord (flag u16 free with_free);
-    "control_word motor_potentiometer_up" ControlWord (flag u16 motor_potentiometer_up
-        with_motor_potentiometer_up);
-    "control_word motor_potentiometer_down" ControlWord (flag u16 motor_potentiometer_down
-        with_motor_potentiometer_down);
-    "control_word local_control" ControlWord (flag u16 local_control with_local_control);
-    "second_control_word fixed_frequency_bit_0" SecondControlWord (flag u16 fixed_frequency_bit_0
-        with_fixed_frequency_bit_0);
-    "second_control_word fixed_frequency_bit_1" SecondControlWord (flag u16 fixed_frequency_bit_1
-        with_fixed_frequency_bit_1);
-    "second_control_word fixed_frequency_bit_2" SecondControlWord (flag u16 fixed_frequency_bit_2
-        with_fixed_frequency_bit_2);
-    "second_control_word pid_enable" SecondControlWord (flag u16 pid_enable with_pid_enable);
-    "second_control_word dc_braking_enable" SecondControlWord (flag u16 dc_braking_enable
-        with_dc_braking_enable);
-    "second_control_word external_fault" SecondControlWord (flag u16 external_fault with_external_fault);
-    "status_word ready_to_switch_on" StatusWord (flag u16 ready_to_switch_on with_ready_to_switch_on);
-    "status_word ready_to_run" StatusWord (flag u16 ready_to_run with_ready_to_run);
-    "status_word operation_enabled" StatusWord (flag u16 operation_enabled with_operation_enabled);
-    "status_word fault" StatusWord (flag u16 fault with_fault);
-    "status_word off2_pending" StatusWord (flag u16 off2_pending with_off2_pending);
-    "status_word off3_pending" StatusWord (flag u16 off3_pending with_off3_pending);
-    "status_word switch_on_inhibit" StatusWord (flag u16 switch_on_inhibit with_switch_on_inhibit);
-    "status_word warning" StatusWord (flag u16 warning with_warning);
-    "status_word deviation" StatusWord (flag u16 deviation with_deviation);
-    "status_word control_requested" StatusWord (flag u16 control_requested with_control_requested);
-    "status_word frequency_reached" StatusWord (flag u16 frequency_reached with_frequency_reached);
-    "status_word current_limit_warning" StatusWord (flag u16 current_limit_warning
-        with_current_limit_warning);
-    "status_word holding_brake_active" StatusWord (flag u16 holding_brake_active with_holding_brake_active);
-    "status_word motor_overload" StatusWord (flag u16 motor_overload with_motor_overload);
-    "status_word clockwise" StatusWord (flag u16 clockwise with_clockwise);
-    "status_word inverter_overload" StatusWord (flag u16 inverter_overload with_inverter_overload);
-} }
-
-table! { flag_name flag_name {
-} }
-
-table! { bits bits {
-} }
-
-table! { words words {
-    "p0731_source" P0731Source (alone);
-    "maximum_frequency" MaximumFrequency (alone);
-    "jog_time_selection_source" JogTimeSelectionSource (alone);
-    "dc_braking_source" DcBrakingSource (alone);
-    "reference_frequency" ReferenceFrequency (alone);
-    "uss_rs232_answer_source_index_0" UssRs232AnswerSourceIndex0 (alone);
-    "uss_rs232_answer_source_index_1" UssRs232AnswerSourceIndex1 (alone);
-    "uss_rs232_answer_source_index_2" UssRs232AnswerSourceIndex2 (alone);
-    "uss_rs232_answer_source_index_3" UssRs232AnswerSourceIndex3 (alone);
-    "uss_rs485_answer_source_index_0" UssRs485AnswerSourceIndex0 (alone);
-    "uss_rs485_answer_source_index_1" UssRs485AnswerSourceIndex1 (alone);
-    "uss_rs485_answer_source_index_2" UssRs485AnswerSourceIndex2 (alone);
-    "uss_rs485_answer_source_index_3" UssRs485AnswerSourceIndex3 (alone);
 } }
 
 table! { address address {
@@ -364,54 +178,6 @@ table! { address address {
     "status_word" StatusWord (at PZD "pzd");
     "main_actual_value" MainActualValue (at PZD "pzd");
     "second_status_word" SecondStatusWord (at PZD "pzd");
-} }
-
-table! { symbol symbol {
-    "maximum_frequency" MaximumFrequency (alone);
-    "reference_frequency" ReferenceFrequency (alone);
-    "uss_telegram_off_time_index_0" UssTelegramOffTimeIndex0 (alone);
-    "uss_telegram_off_time_index_1" UssTelegramOffTimeIndex1 (alone);
-    "main_setpoint" MainSetpoint (alone);
-    "main_actual_value" MainActualValue (alone);
-} }
-
-table! { place place {
-    "uss_normalisation_rs485" UssNormalisationRs485 (alone);
-    "uss_normalisation_rs232" UssNormalisationRs232 (alone);
-    "uss_baud_rate_index_0" UssBaudRateIndex0 (alone);
-    "uss_baud_rate_index_1" UssBaudRateIndex1 (alone);
-    "uss_slave_address_index_0" UssSlaveAddressIndex0 (alone);
-    "uss_slave_address_index_1" UssSlaveAddressIndex1 (alone);
-    "uss_pzd_length_index_0_mm410" UssPzdLengthIndex0Mm410 (alone);
-    "uss_pzd_length_index_0_mm420" UssPzdLengthIndex0Mm420 (alone);
-    "uss_pzd_length_index_0_mm430" UssPzdLengthIndex0Mm430 (alone);
-    "uss_pzd_length_index_0_mm440" UssPzdLengthIndex0Mm440 (alone);
-    "uss_pzd_length_index_1_mm410" UssPzdLengthIndex1Mm410 (alone);
-    "uss_pzd_length_index_1_mm420" UssPzdLengthIndex1Mm420 (alone);
-    "uss_pzd_length_index_1_mm430" UssPzdLengthIndex1Mm430 (alone);
-    "uss_pzd_length_index_1_mm440" UssPzdLengthIndex1Mm440 (alone);
-    "uss_pkw_length_index_0" UssPkwLengthIndex0 (alone);
-    "uss_pkw_length_index_1" UssPkwLengthIndex1 (alone);
-    "uss_telegram_off_time_index_0" UssTelegramOffTimeIndex0 (alone);
-    "uss_telegram_off_time_index_1" UssTelegramOffTimeIndex1 (alone);
-    "uss_rs232_answer_source_index_0" UssRs232AnswerSourceIndex0 (alone);
-    "uss_rs232_answer_source_index_1" UssRs232AnswerSourceIndex1 (alone);
-    "uss_rs232_answer_source_index_2" UssRs232AnswerSourceIndex2 (alone);
-    "uss_rs232_answer_source_index_3" UssRs232AnswerSourceIndex3 (alone);
-    "uss_rs485_answer_source_index_0" UssRs485AnswerSourceIndex0 (alone);
-    "uss_rs485_answer_source_index_1" UssRs485AnswerSourceIndex1 (alone);
-    "uss_rs485_answer_source_index_2" UssRs485AnswerSourceIndex2 (alone);
-    "uss_rs485_answer_source_index_3" UssRs485AnswerSourceIndex3 (alone);
-    "control_word" ControlWord (alone);
-    "main_setpoint" MainSetpoint (alone);
-    "second_control_word" SecondControlWord (alone);
-    "status_word" StatusWord (alone);
-    "main_actual_value" MainActualValue (alone);
-    "second_status_word" SecondStatusWord (alone);
-} }
-
-table! { fixed fixed {
-    "control_word" ControlWord (alone);
 } }
 
 table! { read_by_read read {
@@ -529,10 +295,227 @@ table! { store_by_store store {
     "uss_rs485_answer_source_index_3" UssRs485AnswerSourceIndex3 (wire () ());
 } }
 
+table! { flag flag {
+    "inverter_status_word ready_to_switch_on" InverterStatusWord (flag u16 ready_to_switch_on
+        with_ready_to_switch_on);
+    "inverter_status_word ready_to_run" InverterStatusWord (flag u16 ready_to_run with_ready_to_run);
+    "inverter_status_word operation_enabled" InverterStatusWord (flag u16 operation_enabled
+        with_operation_enabled);
+    "inverter_status_word fault" InverterStatusWord (flag u16 fault with_fault);
+    "inverter_status_word off2_pending" InverterStatusWord (flag u16 off2_pending with_off2_pending);
+    "inverter_status_word off3_pending" InverterStatusWord (flag u16 off3_pending with_off3_pending);
+    "inverter_status_word switch_on_inhibit" InverterStatusWord (flag u16 switch_on_inhibit
+        with_switch_on_inhibit);
+    "inverter_status_word warning" InverterStatusWord (flag u16 warning with_warning);
+    "inverter_status_word deviation" InverterStatusWord (flag u16 deviation with_deviation);
+    "inverter_status_word control_requested" InverterStatusWord (flag u16 control_requested
+        with_control_requested);
+    "inverter_status_word frequency_reached" InverterStatusWord (flag u16 frequency_reached
+        with_frequency_reached);
+    "inverter_status_word current_limit_warning" InverterStatusWord (flag u16 current_limit_warning
+        with_current_limit_warning);
+    "inverter_status_word holding_brake_active" InverterStatusWord (flag u16 holding_brake_active
+        with_holding_brake_active);
+    "inverter_status_word motor_overload" InverterStatusWord (flag u16 motor_overload with_motor_overload);
+    "inverter_status_word clockwise" InverterStatusWord (flag u16 clockwise with_clockwise);
+    "inverter_status_word inverter_overload" InverterStatusWord (flag u16 inverter_overload
+        with_inverter_overload);
+    "p0731_source source_parameter" P0731Source (flag u32 source_parameter with_source_parameter);
+    "p0731_source source_bit" P0731Source (flag u32 source_bit with_source_bit);
+    "jog_time_selection_source source_parameter" JogTimeSelectionSource (flag u32 source_parameter
+        with_source_parameter);
+    "jog_time_selection_source source_bit" JogTimeSelectionSource (flag u32 source_bit with_source_bit);
+    "dc_braking_source source_parameter" DcBrakingSource (flag u32 source_parameter with_source_parameter);
+    "dc_braking_source source_bit" DcBrakingSource (flag u32 source_bit with_source_bit);
+    "uss_rs232_answer_source_index_0 source_parameter" UssRs232AnswerSourceIndex0 (flag u32
+        source_parameter with_source_parameter);
+    "uss_rs232_answer_source_index_0 source_bit" UssRs232AnswerSourceIndex0 (flag u32 source_bit
+        with_source_bit);
+    "uss_rs232_answer_source_index_1 source_parameter" UssRs232AnswerSourceIndex1 (flag u32
+        source_parameter with_source_parameter);
+    "uss_rs232_answer_source_index_1 source_bit" UssRs232AnswerSourceIndex1 (flag u32 source_bit
+        with_source_bit);
+    "uss_rs232_answer_source_index_2 source_parameter" UssRs232AnswerSourceIndex2 (flag u32
+        source_parameter with_source_parameter);
+    "uss_rs232_answer_source_index_2 source_bit" UssRs232AnswerSourceIndex2 (flag u32 source_bit
+        with_source_bit);
+    "uss_rs232_answer_source_index_3 source_parameter" UssRs232AnswerSourceIndex3 (flag u32
+        source_parameter with_source_parameter);
+    "uss_rs232_answer_source_index_3 source_bit" UssRs232AnswerSourceIndex3 (flag u32 source_bit
+        with_source_bit);
+    "uss_rs485_answer_source_index_0 source_parameter" UssRs485AnswerSourceIndex0 (flag u32
+        source_parameter with_source_parameter);
+    "uss_rs485_answer_source_index_0 source_bit" UssRs485AnswerSourceIndex0 (flag u32 source_bit
+        with_source_bit);
+    "uss_rs485_answer_source_index_1 source_parameter" UssRs485AnswerSourceIndex1 (flag u32
+        source_parameter with_source_parameter);
+    "uss_rs485_answer_source_index_1 source_bit" UssRs485AnswerSourceIndex1 (flag u32 source_bit
+        with_source_bit);
+    "uss_rs485_answer_source_index_2 source_parameter" UssRs485AnswerSourceIndex2 (flag u32
+        source_parameter with_source_parameter);
+    "uss_rs485_answer_source_index_2 source_bit" UssRs485AnswerSourceIndex2 (flag u32 source_bit
+        with_source_bit);
+    "uss_rs485_answer_source_index_3 source_parameter" UssRs485AnswerSourceIndex3 (flag u32
+        source_parameter with_source_parameter);
+    "uss_rs485_answer_source_index_3 source_bit" UssRs485AnswerSourceIndex3 (flag u32 source_bit
+        with_source_bit);
+    "control_word on" ControlWord (flag u16 on with_on);
+    "control_word off2" ControlWord (flag u16 off2 with_off2);
+    "control_word off3" ControlWord (flag u16 off3 with_off3);
+    "control_word enable_operation" ControlWord (flag u16 enable_operation with_enable_operation);
+    "control_word ramp_generator_operating" ControlWord (flag u16 ramp_generator_operating
+        with_ramp_generator_operating);
+    "control_word enable_ramp_generator" ControlWord (flag u16 enable_ramp_generator
+        with_enable_ramp_generator);
+    "control_word enable_setpoint" ControlWord (flag u16 enable_setpoint with_enable_setpoint);
+    "control_word acknowledge_fault" ControlWord (flag u16 acknowledge_fault with_acknowledge_fault);
+    "control_word jog_clockwise" ControlWord (flag u16 jog_clockwise with_jog_clockwise);
+    "control_word jog_counter_clockwise" ControlWord (flag u16 jog_counter_clockwise
+        with_jog_counter_clockwise);
+    "control_word setpoints_valid" ControlWord (flag u16 setpoints_valid with_setpoints_valid);
+    "control_word invert_setpoint" ControlWord (flag u16 invert_setpoint with_invert_setpoint);
+    "control_word free" ControlWord (flag u16 free with_free);
+    "control_word motor_potentiometer_up" ControlWord (flag u16 motor_potentiometer_up
+        with_motor_potentiometer_up);
+    "control_word motor_potentiometer_down" ControlWord (flag u16 motor_potentiometer_down
+        with_motor_potentiometer_down);
+    "control_word local_control" ControlWord (flag u16 local_control with_local_control);
+    "second_control_word fixed_frequency_bit_0" SecondControlWord (flag u16 fixed_frequency_bit_0
+        with_fixed_frequency_bit_0);
+    "second_control_word fixed_frequency_bit_1" SecondControlWord (flag u16 fixed_frequency_bit_1
+        with_fixed_frequency_bit_1);
+    "second_control_word fixed_frequency_bit_2" SecondControlWord (flag u16 fixed_frequency_bit_2
+        with_fixed_frequency_bit_2);
+    "second_control_word pid_enable" SecondControlWord (flag u16 pid_enable with_pid_enable);
+    "second_control_word dc_braking_enable" SecondControlWord (flag u16 dc_braking_enable
+        with_dc_braking_enable);
+    "second_control_word external_fault" SecondControlWord (flag u16 external_fault with_external_fault);
+    "status_word ready_to_switch_on" StatusWord (flag u16 ready_to_switch_on with_ready_to_switch_on);
+    "status_word ready_to_run" StatusWord (flag u16 ready_to_run with_ready_to_run);
+    "status_word operation_enabled" StatusWord (flag u16 operation_enabled with_operation_enabled);
+    "status_word fault" StatusWord (flag u16 fault with_fault);
+    "status_word off2_pending" StatusWord (flag u16 off2_pending with_off2_pending);
+    "status_word off3_pending" StatusWord (flag u16 off3_pending with_off3_pending);
+    "status_word switch_on_inhibit" StatusWord (flag u16 switch_on_inhibit with_switch_on_inhibit);
+    "status_word warning" StatusWord (flag u16 warning with_warning);
+    "status_word deviation" StatusWord (flag u16 deviation with_deviation);
+    "status_word control_requested" StatusWord (flag u16 control_requested with_control_requested);
+    "status_word frequency_reached" StatusWord (flag u16 frequency_reached with_frequency_reached);
+    "status_word current_limit_warning" StatusWord (flag u16 current_limit_warning
+        with_current_limit_warning);
+    "status_word holding_brake_active" StatusWord (flag u16 holding_brake_active with_holding_brake_active);
+    "status_word motor_overload" StatusWord (flag u16 motor_overload with_motor_overload);
+    "status_word clockwise" StatusWord (flag u16 clockwise with_clockwise);
+    "status_word inverter_overload" StatusWord (flag u16 inverter_overload with_inverter_overload);
+} }
+
+table! { words words {
+    "p0731_source" P0731Source (alone);
+    "maximum_frequency" MaximumFrequency (alone);
+    "jog_time_selection_source" JogTimeSelectionSource (alone);
+    "dc_braking_source" DcBrakingSource (alone);
+    "reference_frequency" ReferenceFrequency (alone);
+    "uss_rs232_answer_source_index_0" UssRs232AnswerSourceIndex0 (alone);
+    "uss_rs232_answer_source_index_1" UssRs232AnswerSourceIndex1 (alone);
+    "uss_rs232_answer_source_index_2" UssRs232AnswerSourceIndex2 (alone);
+    "uss_rs232_answer_source_index_3" UssRs232AnswerSourceIndex3 (alone);
+    "uss_rs485_answer_source_index_0" UssRs485AnswerSourceIndex0 (alone);
+    "uss_rs485_answer_source_index_1" UssRs485AnswerSourceIndex1 (alone);
+    "uss_rs485_answer_source_index_2" UssRs485AnswerSourceIndex2 (alone);
+    "uss_rs485_answer_source_index_3" UssRs485AnswerSourceIndex3 (alone);
+} }
+
+table! { decode decode {
+    "maximum_frequency" MaximumFrequency ();
+    "reference_frequency" ReferenceFrequency ();
+    "main_actual_value" MainActualValue (MainActualValue: uss_normalisation "uss_normalisation"
+        reference_frequency "reference_frequency");
+} }
+
+table! { encode encode {
+    "maximum_frequency" MaximumFrequency ();
+    "reference_frequency" ReferenceFrequency ();
+    "main_setpoint" MainSetpoint (MainSetpoint: uss_normalisation "uss_normalisation" reference_frequency
+        "reference_frequency");
+} }
+
+table! { symbol symbol {
+    "maximum_frequency" MaximumFrequency (alone);
+    "reference_frequency" ReferenceFrequency (alone);
+    "uss_telegram_off_time_index_0" UssTelegramOffTimeIndex0 (alone);
+    "uss_telegram_off_time_index_1" UssTelegramOffTimeIndex1 (alone);
+    "main_setpoint" MainSetpoint (alone);
+    "main_actual_value" MainActualValue (alone);
+} }
+
+table! { place place {
+    "uss_normalisation_rs485" UssNormalisationRs485 (alone);
+    "uss_normalisation_rs232" UssNormalisationRs232 (alone);
+    "uss_baud_rate_index_0" UssBaudRateIndex0 (alone);
+    "uss_baud_rate_index_1" UssBaudRateIndex1 (alone);
+    "uss_slave_address_index_0" UssSlaveAddressIndex0 (alone);
+    "uss_slave_address_index_1" UssSlaveAddressIndex1 (alone);
+    "uss_pzd_length_index_0_mm410" UssPzdLengthIndex0Mm410 (alone);
+    "uss_pzd_length_index_0_mm420" UssPzdLengthIndex0Mm420 (alone);
+    "uss_pzd_length_index_0_mm430" UssPzdLengthIndex0Mm430 (alone);
+    "uss_pzd_length_index_0_mm440" UssPzdLengthIndex0Mm440 (alone);
+    "uss_pzd_length_index_1_mm410" UssPzdLengthIndex1Mm410 (alone);
+    "uss_pzd_length_index_1_mm420" UssPzdLengthIndex1Mm420 (alone);
+    "uss_pzd_length_index_1_mm430" UssPzdLengthIndex1Mm430 (alone);
+    "uss_pzd_length_index_1_mm440" UssPzdLengthIndex1Mm440 (alone);
+    "uss_pkw_length_index_0" UssPkwLengthIndex0 (alone);
+    "uss_pkw_length_index_1" UssPkwLengthIndex1 (alone);
+    "uss_telegram_off_time_index_0" UssTelegramOffTimeIndex0 (alone);
+    "uss_telegram_off_time_index_1" UssTelegramOffTimeIndex1 (alone);
+    "uss_rs232_answer_source_index_0" UssRs232AnswerSourceIndex0 (alone);
+    "uss_rs232_answer_source_index_1" UssRs232AnswerSourceIndex1 (alone);
+    "uss_rs232_answer_source_index_2" UssRs232AnswerSourceIndex2 (alone);
+    "uss_rs232_answer_source_index_3" UssRs232AnswerSourceIndex3 (alone);
+    "uss_rs485_answer_source_index_0" UssRs485AnswerSourceIndex0 (alone);
+    "uss_rs485_answer_source_index_1" UssRs485AnswerSourceIndex1 (alone);
+    "uss_rs485_answer_source_index_2" UssRs485AnswerSourceIndex2 (alone);
+    "uss_rs485_answer_source_index_3" UssRs485AnswerSourceIndex3 (alone);
+    "control_word" ControlWord (alone);
+    "main_setpoint" MainSetpoint (alone);
+    "second_control_word" SecondControlWord (alone);
+    "status_word" StatusWord (alone);
+    "main_actual_value" MainActualValue (alone);
+    "second_status_word" SecondStatusWord (alone);
+} }
+
+table! { decode_coded decode_coded {
+    "uss_telegram_off_time_index_0" UssTelegramOffTimeIndex0 ();
+    "uss_telegram_off_time_index_1" UssTelegramOffTimeIndex1 ();
+} }
+
+table! { encode_coded encode_coded {
+    "uss_telegram_off_time_index_0" UssTelegramOffTimeIndex0 ();
+    "uss_telegram_off_time_index_1" UssTelegramOffTimeIndex1 ();
+} }
+
+table! { special special {
+    "uss_telegram_off_time_index_0" UssTelegramOffTimeIndex0 (alone);
+    "uss_telegram_off_time_index_1" UssTelegramOffTimeIndex1 (alone);
+} }
+
+table! { special_name special_name {
+    "uss_telegram_off_time_index_0" UssTelegramOffTimeIndex0 (alone);
+    "uss_telegram_off_time_index_1" UssTelegramOffTimeIndex1 (alone);
+} }
+
+table! { fixed fixed {
+    "control_word" ControlWord (alone);
+} }
+
 table! { write_by_send_only send_only {
     "control_word" ControlWord (wire);
     "main_setpoint" MainSetpoint (wire);
     "second_control_word" SecondControlWord (wire);
+} }
+
+table! { encode_count encode_count {
+    "main_setpoint" MainSetpoint (MainSetpoint: uss_normalisation "uss_normalisation" reference_frequency
+        "reference_frequency");
 } }
 
 table! { read_by_receive receive {
@@ -542,7 +525,12 @@ table! { read_by_receive receive {
     "second_status_word" SecondStatusWord (wire ());
 } }
 
-table! { constant code {
+table! { decode_count decode_count {
+    "main_actual_value" MainActualValue (MainActualValue: uss_normalisation "uss_normalisation"
+        reference_frequency "reference_frequency");
+} }
+
+table! { constant constant {
     "task no_task" tasks (code NO_TASK);
     "task read_value" tasks (code READ_VALUE);
     "task write_word" tasks (code WRITE_WORD);
@@ -617,39 +605,35 @@ table! { documented documented {
 
 fn run(kind: &str, vector: &runner::Vector) -> Option<runner::Outcome> {
     match kind {
-        "decode" => decode(vector),
-        "encode" => encode(vector),
-        "decode_count" => decode_count(vector)
-            .or_else(|| decode_plain(vector))
+        "decode_count" => decode_plain(vector)
             .or_else(|| decode_coded(vector))
-            .or_else(|| decode_mixed(vector)),
-        "encode_count" => encode_count(vector)
-            .or_else(|| encode_plain(vector))
+            .or_else(|| decode_count(vector)),
+        "encode_count" => encode_plain(vector)
             .or_else(|| encode_coded(vector))
-            .or_else(|| encode_mixed(vector)),
+            .or_else(|| encode_count(vector)),
         "check" => check(vector),
         "name" => name(vector),
-        "special" => special(vector),
-        "special_name" => special_name(vector),
-        "flag" => flag(vector),
-        "flag_name" => flag_name(vector),
-        "bits" => bits(vector),
-        "words" => words(vector),
-        "address" => runner::listed(vector, device::POINTS, address(vector)),
-        "symbol" => symbol(vector),
-        "place" => place(vector),
-        "fixed" => fixed(vector),
-        "constant" => constant(vector),
-        "documented" => documented(vector),
         "read" => read_by_read(vector).or_else(|| read_by_receive(vector)),
         "write" => write_by_write(vector).or_else(|| write_by_send_only(vector)),
         "store" => store_by_store(vector),
+        "flag" => flag(vector),
+        "words" => words(vector),
+        "decode" => decode(vector),
+        "encode" => encode(vector),
+        "symbol" => symbol(vector),
+        "place" => place(vector),
+        "special" => special(vector),
+        "special_name" => special_name(vector),
+        "fixed" => fixed(vector),
+        "constant" => constant(vector),
+        "documented" => documented(vector),
+        "address" => runner::listed(vector, device::POINTS, address(vector)),
         "code" => {
             code(vector).map(|found| found.and_then(|()| frames::named(vector, &device::PROFILE)))
         }
-        "uss_build" | "uss_printed_build" => Some(frames::build(vector, &device::PROFILE)),
+        "uss_build" => Some(frames::build(vector, &device::PROFILE)),
         "uss_broadcast" => Some(frames::broadcast(vector, &device::PROFILE)),
-        "uss_reply" | "uss_printed_reply" => Some(frames::reply(vector, &device::PROFILE)),
+        "uss_reply" => Some(frames::reply(vector, &device::PROFILE)),
         _ => None,
     }
 }

@@ -9,6 +9,537 @@ use fieldscribe_conformance::{self as runner, table};
 
 use ::woodward_mpu2s as device;
 
+table! { decode_plain decode_plain {
+    "telegram_identification" TelegramIdentification ();
+    "generator_power_exponent" GeneratorPowerExponent ();
+    "generator_voltage_exponent" GeneratorVoltageExponent ();
+    "active_power_setpoint_factor" ActivePowerSetpointFactor ();
+    "present_fault_classes" PresentFaultClasses ();
+    "control_register_2" ControlRegister2 ();
+    "control_register_1" ControlRegister1 ();
+    "internal_faults_8" InternalFaults8 ();
+    "internal_faults_6" InternalFaults6 ();
+    "load_sharing_participants" LoadSharingParticipants ();
+    "mains_state" MainsState ();
+    "generator_state" GeneratorState ();
+    "generator_current_exponent" GeneratorCurrentExponent ();
+    "busbar_state" BusbarState ();
+    "mains_voltage_exponent" MainsVoltageExponent ();
+    "busbar_voltage_exponent" BusbarVoltageExponent ();
+    "operating_hours" OperatingHours ();
+    "hours_until_maintenance" HoursUntilMaintenance ();
+    "engine_start_counter" EngineStartCounter ();
+    "generator_active_energy" GeneratorActiveEnergy ();
+    "internal_faults_1" InternalFaults1 ();
+    "internal_faults_2" InternalFaults2 ();
+    "internal_faults_3" InternalFaults3 ();
+    "internal_faults_4" InternalFaults4 ();
+    "internal_faults_5" InternalFaults5 ();
+    "digital_input_faults_1_to_8" DigitalInputFaults1To8 ();
+    "digital_input_faults_9_to_16" DigitalInputFaults9To16 ();
+    "internal_faults_7" InternalFaults7 ();
+    "password_level_2" PasswordLevel2 ();
+    "generator_vt_secondary_100v" GeneratorVtSecondary100v ();
+    "generator_vt_secondary_400v" GeneratorVtSecondary400v ();
+    "generator_vt_primary" GeneratorVtPrimary ();
+    "busbar_vt_secondary_100v" BusbarVtSecondary100v ();
+    "busbar_vt_secondary_400v" BusbarVtSecondary400v ();
+    "busbar_vt_primary" BusbarVtPrimary ();
+    "mains_vt_secondary_100v" MainsVtSecondary100v ();
+    "mains_vt_secondary_400v" MainsVtSecondary400v ();
+    "mains_vt_primary" MainsVtPrimary ();
+    "generator_voltage_factor" GeneratorVoltageFactor ();
+    "generator_current_transformer_ratio" GeneratorCurrentTransformerRatio ();
+    "power_measurement_phases" PowerMeasurementPhases ();
+    "generator_rated_power" GeneratorRatedPower ();
+    "generator_rated_current" GeneratorRatedCurrent ();
+    "generator_power_setpoint_1" GeneratorPowerSetpoint1 ();
+    "generator_power_setpoint_2" GeneratorPowerSetpoint2 ();
+    "frequency_controller" FrequencyController ();
+    "voltage_controller" VoltageController ();
+    "cos_phi_controller" CosPhiController ();
+    "active_power_controller" ActivePowerController ();
+    "active_power_controller_ramp" ActivePowerControllerRamp ();
+    "control_by_interface_x1_x5" ControlByInterfaceX1X5 ();
+    "breaker_logic" BreakerLogic ();
+    "generator_breaker_signal_logic" GeneratorBreakerSignalLogic ();
+    "generator_breaker_open_relay_logic" GeneratorBreakerOpenRelayLogic ();
+    "generator_breaker_pick_up_time" GeneratorBreakerPickUpTime ();
+    "synchronisation_time_monitoring" SynchronisationTimeMonitoring ();
+    "synchronisation_time_monitoring_delay" SynchronisationTimeMonitoringDelay ();
+    "dead_bus_start" DeadBusStart ();
+    "dead_bus_start_maximum_time" DeadBusStartMaximumTime ();
+    "generator_breaker_monitoring" GeneratorBreakerMonitoring ();
+    "automatic_breaker_unlocking" AutomaticBreakerUnlocking ();
+    "generator_overload_monitoring" GeneratorOverloadMonitoring ();
+    "generator_reverse_power_monitoring" GeneratorReversePowerMonitoring ();
+    "generator_unbalanced_load_monitoring" GeneratorUnbalancedLoadMonitoring ();
+    "generator_overcurrent_monitoring" GeneratorOvercurrentMonitoring ();
+    "inverse_time_overcurrent" InverseTimeOvercurrent ();
+    "inverse_time_overcurrent_characteristic" InverseTimeOvercurrentCharacteristic ();
+    "inverse_time_overcurrent_by_voltage" InverseTimeOvercurrentByVoltage ();
+    "inverse_time_overcurrent_voltage_knee" InverseTimeOvercurrentVoltageKnee ();
+    "generator_overfrequency_monitoring" GeneratorOverfrequencyMonitoring ();
+    "generator_underfrequency_monitoring" GeneratorUnderfrequencyMonitoring ();
+    "generator_overvoltage_monitoring" GeneratorOvervoltageMonitoring ();
+    "generator_undervoltage_monitoring" GeneratorUndervoltageMonitoring ();
+    "mains_frequency_monitoring" MainsFrequencyMonitoring ();
+    "mains_voltage_monitoring" MainsVoltageMonitoring ();
+    "mains_voltage_factor" MainsVoltageFactor ();
+    "phase_shift_monitoring" PhaseShiftMonitoring ();
+    "phase_shift_monitoring_phases" PhaseShiftMonitoringPhases ();
+    "phase_shift_threshold_single_phase" PhaseShiftThresholdSinglePhase ();
+    "phase_shift_threshold_three_phase" PhaseShiftThresholdThreePhase ();
+    "reactive_power_monitoring" ReactivePowerMonitoring ();
+    "earth_fault_monitoring" EarthFaultMonitoring ();
+    "digital_inputs_1_to_4_logic" DigitalInputs1To4Logic ();
+    "digital_inputs_1_to_4_engine_delay" DigitalInputs1To4EngineDelay ();
+    "digital_inputs_5_to_8_logic" DigitalInputs5To8Logic ();
+    "digital_inputs_5_to_8_engine_delay" DigitalInputs5To8EngineDelay ();
+    "digital_inputs_9_to_12_logic" DigitalInputs9To12Logic ();
+    "digital_inputs_9_to_12_engine_delay" DigitalInputs9To12EngineDelay ();
+    "analog_output_1_source" AnalogOutput1Source ();
+    "analog_output_1_current_range" AnalogOutput1CurrentRange ();
+    "analog_output_2_source" AnalogOutput2Source ();
+    "analog_output_2_current_range" AnalogOutput2CurrentRange ();
+    "relay_1_event_1" Relay1Event1 ();
+    "relay_1_logic_1" Relay1Logic1 ();
+    "relay_1_event_2" Relay1Event2 ();
+    "relay_1_logic_2" Relay1Logic2 ();
+    "relay_1_event_3" Relay1Event3 ();
+    "relay_1_logic_3" Relay1Logic3 ();
+    "relay_2_event_1" Relay2Event1 ();
+    "relay_2_logic_1" Relay2Logic1 ();
+    "relay_2_event_2" Relay2Event2 ();
+    "relay_2_logic_2" Relay2Logic2 ();
+    "relay_2_event_3" Relay2Event3 ();
+    "relay_2_logic_3" Relay2Logic3 ();
+    "relay_3_event_1" Relay3Event1 ();
+    "relay_3_logic_1" Relay3Logic1 ();
+    "relay_3_event_2" Relay3Event2 ();
+    "relay_3_logic_2" Relay3Logic2 ();
+    "relay_3_event_3" Relay3Event3 ();
+    "relay_3_logic_3" Relay3Logic3 ();
+    "relay_4_event_1" Relay4Event1 ();
+    "relay_4_logic_1" Relay4Logic1 ();
+    "relay_4_event_2" Relay4Event2 ();
+    "relay_4_logic_2" Relay4Logic2 ();
+    "relay_4_event_3" Relay4Event3 ();
+    "relay_4_logic_3" Relay4Logic3 ();
+    "relay_5_event_1" Relay5Event1 ();
+    "relay_5_logic_1" Relay5Logic1 ();
+    "relay_5_event_2" Relay5Event2 ();
+    "relay_5_logic_2" Relay5Logic2 ();
+    "relay_5_event_3" Relay5Event3 ();
+    "relay_5_logic_3" Relay5Logic3 ();
+    "relay_6_event_1" Relay6Event1 ();
+    "relay_6_logic_1" Relay6Logic1 ();
+    "relay_6_event_2" Relay6Event2 ();
+    "relay_6_logic_2" Relay6Logic2 ();
+    "relay_6_event_3" Relay6Event3 ();
+    "relay_6_logic_3" Relay6Logic3 ();
+    "relay_7_event_1" Relay7Event1 ();
+    "relay_7_logic_1" Relay7Logic1 ();
+    "relay_7_event_2" Relay7Event2 ();
+    "relay_7_logic_2" Relay7Logic2 ();
+    "relay_7_event_3" Relay7Event3 ();
+    "relay_7_logic_3" Relay7Logic3 ();
+    "automatic_idle_control" AutomaticIdleControl ();
+    "shutdown" Shutdown ();
+    "engine_monitoring_delay" EngineMonitoringDelay ();
+} }
+
+table! { place place {
+    "telegram_identification" TelegramIdentification (alone);
+    "generator_frequency" GeneratorFrequency (alone);
+    "generator_active_power" GeneratorActivePower (alone);
+    "generator_power_exponent" GeneratorPowerExponent (alone);
+    "generator_voltage_exponent" GeneratorVoltageExponent (alone);
+    "present_active_power_setpoint" PresentActivePowerSetpoint (alone);
+    "active_power_setpoint_factor" ActivePowerSetpointFactor (alone);
+    "busbar_voltage_l1_l2" BusbarVoltageL1L2 (alone);
+    "mains_voltage_l1_l2" MainsVoltageL1L2 (alone);
+    "present_fault_classes" PresentFaultClasses (alone);
+    "control_register_2" ControlRegister2 (alone);
+    "control_register_1" ControlRegister1 (alone);
+    "internal_faults_8" InternalFaults8 (alone);
+    "internal_faults_6" InternalFaults6 (alone);
+    "generator_voltage_l2_l3" GeneratorVoltageL2L3 (alone);
+    "generator_voltage_l3_l1" GeneratorVoltageL3L1 (alone);
+    "generator_voltage_l1_n" GeneratorVoltageL1N (alone);
+    "generator_voltage_l2_n" GeneratorVoltageL2N (alone);
+    "generator_voltage_l3_n" GeneratorVoltageL3N (alone);
+    "generator_voltage_l1_l2" GeneratorVoltageL1L2 (alone);
+    "generator_current_l1" GeneratorCurrentL1 (alone);
+    "generator_current_l2" GeneratorCurrentL2 (alone);
+    "generator_current_l3" GeneratorCurrentL3 (alone);
+    "generator_cos_phi" GeneratorCosPhi (alone);
+    "load_sharing_participants" LoadSharingParticipants (alone);
+    "mains_state" MainsState (alone);
+    "generator_state" GeneratorState (alone);
+    "generator_current_exponent" GeneratorCurrentExponent (alone);
+    "busbar_frequency" BusbarFrequency (alone);
+    "busbar_state" BusbarState (alone);
+    "mains_voltage_l2_l3" MainsVoltageL2L3 (alone);
+    "mains_voltage_l3_l1" MainsVoltageL3L1 (alone);
+    "mains_voltage_l1_n" MainsVoltageL1N (alone);
+    "mains_voltage_l2_n" MainsVoltageL2N (alone);
+    "mains_voltage_l3_n" MainsVoltageL3N (alone);
+    "mains_frequency" MainsFrequency (alone);
+    "mains_voltage_exponent" MainsVoltageExponent (alone);
+    "busbar_voltage_exponent" BusbarVoltageExponent (alone);
+    "operating_hours" OperatingHours (alone);
+    "hours_until_maintenance" HoursUntilMaintenance (alone);
+    "engine_start_counter" EngineStartCounter (alone);
+    "generator_active_energy" GeneratorActiveEnergy (alone);
+    "battery_voltage" BatteryVoltage (alone);
+    "internal_faults_1" InternalFaults1 (alone);
+    "internal_faults_2" InternalFaults2 (alone);
+    "internal_faults_3" InternalFaults3 (alone);
+    "internal_faults_4" InternalFaults4 (alone);
+    "internal_faults_5" InternalFaults5 (alone);
+    "digital_input_faults_1_to_8" DigitalInputFaults1To8 (alone);
+    "digital_input_faults_9_to_16" DigitalInputFaults9To16 (alone);
+    "internal_faults_7" InternalFaults7 (alone);
+    "fault_text_terminal_62" FaultTextTerminal62 (alone);
+    "fault_text_terminal_63" FaultTextTerminal63 (alone);
+    "fault_text_terminal_64" FaultTextTerminal64 (alone);
+    "fault_text_terminal_65" FaultTextTerminal65 (alone);
+    "fault_text_terminal_66" FaultTextTerminal66 (alone);
+    "fault_text_terminal_67" FaultTextTerminal67 (alone);
+    "fault_text_terminal_68" FaultTextTerminal68 (alone);
+    "fault_text_terminal_69" FaultTextTerminal69 (alone);
+    "fault_text_terminal_70" FaultTextTerminal70 (alone);
+    "fault_text_terminal_71" FaultTextTerminal71 (alone);
+    "fault_text_terminal_72" FaultTextTerminal72 (alone);
+    "fault_text_terminal_73" FaultTextTerminal73 (alone);
+} }
+
+table! { address address {
+    "telegram_identification" TelegramIdentification (at MUX "mux" WORD "word" NR "nr");
+    "generator_frequency" GeneratorFrequency (at MUX "mux" WORD "word" NR "nr");
+    "generator_active_power" GeneratorActivePower (at MUX "mux" WORD "word" NR "nr");
+    "generator_power_exponent" GeneratorPowerExponent (at MUX "mux" WORD "word" NR "nr");
+    "generator_voltage_exponent" GeneratorVoltageExponent (at MUX "mux" WORD "word" NR "nr");
+    "present_active_power_setpoint" PresentActivePowerSetpoint (at MUX "mux" WORD "word" NR "nr");
+    "active_power_setpoint_factor" ActivePowerSetpointFactor (at MUX "mux" WORD "word" NR "nr");
+    "busbar_voltage_l1_l2" BusbarVoltageL1L2 (at MUX "mux" WORD "word" NR "nr");
+    "mains_voltage_l1_l2" MainsVoltageL1L2 (at MUX "mux" WORD "word" NR "nr");
+    "present_fault_classes" PresentFaultClasses (at MUX "mux" WORD "word" NR "nr");
+    "control_register_2" ControlRegister2 (at MUX "mux" WORD "word" NR "nr");
+    "control_register_1" ControlRegister1 (at MUX "mux" WORD "word" NR "nr");
+    "internal_faults_8" InternalFaults8 (at MUX "mux" WORD "word" NR "nr");
+    "internal_faults_6" InternalFaults6 (at MUX "mux" WORD "word" NR "nr");
+    "generator_voltage_l2_l3" GeneratorVoltageL2L3 (at MUX "mux" WORD "word" NR "nr");
+    "generator_voltage_l3_l1" GeneratorVoltageL3L1 (at MUX "mux" WORD "word" NR "nr");
+    "generator_voltage_l1_n" GeneratorVoltageL1N (at MUX "mux" WORD "word" NR "nr");
+    "generator_voltage_l2_n" GeneratorVoltageL2N (at MUX "mux" WORD "word" NR "nr");
+    "generator_voltage_l3_n" GeneratorVoltageL3N (at MUX "mux" WORD "word" NR "nr");
+    "generator_voltage_l1_l2" GeneratorVoltageL1L2 (at MUX "mux" WORD "word" NR "nr");
+    "generator_current_l1" GeneratorCurrentL1 (at MUX "mux" WORD "word" NR "nr");
+    "generator_current_l2" GeneratorCurrentL2 (at MUX "mux" WORD "word" NR "nr");
+    "generator_current_l3" GeneratorCurrentL3 (at MUX "mux" WORD "word" NR "nr");
+    "generator_cos_phi" GeneratorCosPhi (at MUX "mux" WORD "word" NR "nr");
+    "load_sharing_participants" LoadSharingParticipants (at MUX "mux" WORD "word" NR "nr");
+    "mains_state" MainsState (at MUX "mux" WORD "word" NR "nr");
+    "generator_state" GeneratorState (at MUX "mux" WORD "word" NR "nr");
+    "generator_current_exponent" GeneratorCurrentExponent (at MUX "mux" WORD "word" NR "nr");
+    "busbar_frequency" BusbarFrequency (at MUX "mux" WORD "word" NR "nr");
+    "busbar_state" BusbarState (at MUX "mux" WORD "word" NR "nr");
+    "mains_voltage_l2_l3" MainsVoltageL2L3 (at MUX "mux" WORD "word" NR "nr");
+    "mains_voltage_l3_l1" MainsVoltageL3L1 (at MUX "mux" WORD "word" NR "nr");
+    "mains_voltage_l1_n" MainsVoltageL1N (at MUX "mux" WORD "word" NR "nr");
+    "mains_voltage_l2_n" MainsVoltageL2N (at MUX "mux" WORD "word" NR "nr");
+    "mains_voltage_l3_n" MainsVoltageL3N (at MUX "mux" WORD "word" NR "nr");
+    "mains_frequency" MainsFrequency (at MUX "mux" WORD "word" NR "nr");
+    "mains_voltage_exponent" MainsVoltageExponent (at MUX "mux" WORD "word" NR "nr");
+    "busbar_voltage_exponent" BusbarVoltageExponent (at MUX "mux" WORD "word" NR "nr");
+    "operating_hours" OperatingHours (at MUX "mux" WORD "word" NR "nr");
+    "hours_until_maintenance" HoursUntilMaintenance (at MUX "mux" WORD "word" NR "nr");
+    "engine_start_counter" EngineStartCounter (at MUX "mux" WORD "word" NR "nr");
+    "generator_active_energy" GeneratorActiveEnergy (at MUX "mux" WORD "word" NR "nr");
+    "battery_voltage" BatteryVoltage (at MUX "mux" WORD "word" NR "nr");
+    "internal_faults_1" InternalFaults1 (at MUX "mux" WORD "word" NR "nr");
+    "internal_faults_2" InternalFaults2 (at MUX "mux" WORD "word" NR "nr");
+    "internal_faults_3" InternalFaults3 (at MUX "mux" WORD "word" NR "nr");
+    "internal_faults_4" InternalFaults4 (at MUX "mux" WORD "word" NR "nr");
+    "internal_faults_5" InternalFaults5 (at MUX "mux" WORD "word" NR "nr");
+    "digital_input_faults_1_to_8" DigitalInputFaults1To8 (at MUX "mux" WORD "word" NR "nr");
+    "digital_input_faults_9_to_16" DigitalInputFaults9To16 (at MUX "mux" WORD "word" NR "nr");
+    "internal_faults_7" InternalFaults7 (at MUX "mux" WORD "word" NR "nr");
+    "password_level_2" PasswordLevel2 (at);
+    "generator_frequency_setpoint" GeneratorFrequencySetpoint (at);
+    "generator_rated_frequency" GeneratorRatedFrequency (at);
+    "generator_vt_secondary_100v" GeneratorVtSecondary100v (at);
+    "generator_vt_secondary_400v" GeneratorVtSecondary400v (at);
+    "generator_vt_primary" GeneratorVtPrimary (at);
+    "busbar_vt_secondary_100v" BusbarVtSecondary100v (at);
+    "busbar_vt_secondary_400v" BusbarVtSecondary400v (at);
+    "busbar_vt_primary" BusbarVtPrimary (at);
+    "mains_vt_secondary_100v" MainsVtSecondary100v (at);
+    "mains_vt_secondary_400v" MainsVtSecondary400v (at);
+    "mains_vt_primary" MainsVtPrimary (at);
+    "generator_voltage_factor" GeneratorVoltageFactor (at);
+    "generator_voltage_setpoint_100v" GeneratorVoltageSetpoint100v (at);
+    "generator_voltage_setpoint_400v" GeneratorVoltageSetpoint400v (at);
+    "generator_rated_voltage_100v" GeneratorRatedVoltage100v (at);
+    "generator_rated_voltage_400v" GeneratorRatedVoltage400v (at);
+    "generator_current_transformer_ratio" GeneratorCurrentTransformerRatio (at);
+    "power_measurement_phases" PowerMeasurementPhases (at);
+    "generator_rated_power" GeneratorRatedPower (at);
+    "generator_rated_current" GeneratorRatedCurrent (at);
+    "generator_power_setpoint_1" GeneratorPowerSetpoint1 (at);
+    "generator_power_setpoint_2" GeneratorPowerSetpoint2 (at);
+    "frequency_controller" FrequencyController (at);
+    "frequency_controller_start_frequency" FrequencyControllerStartFrequency (at);
+    "frequency_controller_start_delay" FrequencyControllerStartDelay (at);
+    "frequency_controller_dead_band" FrequencyControllerDeadBand (at);
+    "frequency_controller_pulse_time" FrequencyControllerPulseTime (at);
+    "frequency_controller_gain" FrequencyControllerGain (at);
+    "voltage_controller" VoltageController (at);
+    "voltage_controller_dead_band" VoltageControllerDeadBand (at);
+    "voltage_controller_pulse_time" VoltageControllerPulseTime (at);
+    "voltage_controller_gain" VoltageControllerGain (at);
+    "cos_phi_controller" CosPhiController (at);
+    "cos_phi_controller_setpoint" CosPhiControllerSetpoint (at);
+    "cos_phi_controller_dead_band" CosPhiControllerDeadBand (at);
+    "cos_phi_controller_gain" CosPhiControllerGain (at);
+    "active_power_controller" ActivePowerController (at);
+    "active_power_controller_ramp" ActivePowerControllerRamp (at);
+    "active_power_controller_maximum" ActivePowerControllerMaximum (at);
+    "active_power_controller_minimum" ActivePowerControllerMinimum (at);
+    "active_power_controller_dead_band" ActivePowerControllerDeadBand (at);
+    "active_power_controller_gain" ActivePowerControllerGain (at);
+    "active_power_controller_reduction_factor" ActivePowerControllerReductionFactor (at);
+    "part_load_lead_setpoint" PartLoadLeadSetpoint (at);
+    "part_load_lead_time" PartLoadLeadTime (at);
+    "control_by_interface_x1_x5" ControlByInterfaceX1X5 (at);
+    "breaker_logic" BreakerLogic (at);
+    "load_ramp_maximum_time" LoadRampMaximumTime (at);
+    "generator_breaker_signal_logic" GeneratorBreakerSignalLogic (at);
+    "generator_breaker_open_relay_logic" GeneratorBreakerOpenRelayLogic (at);
+    "synchronisation_frequency_difference_max" SynchronisationFrequencyDifferenceMax (at);
+    "synchronisation_frequency_difference_min" SynchronisationFrequencyDifferenceMin (at);
+    "synchronisation_voltage_difference_max" SynchronisationVoltageDifferenceMax (at);
+    "synchronisation_voltage_difference_min" SynchronisationVoltageDifferenceMin (at);
+    "synchronisation_pulse_time" SynchronisationPulseTime (at);
+    "generator_breaker_pick_up_time" GeneratorBreakerPickUpTime (at);
+    "synchronisation_time_monitoring" SynchronisationTimeMonitoring (at);
+    "synchronisation_time_monitoring_delay" SynchronisationTimeMonitoringDelay (at);
+    "dead_bus_start" DeadBusStart (at);
+    "dead_bus_start_frequency_difference_max" DeadBusStartFrequencyDifferenceMax (at);
+    "dead_bus_start_voltage_difference_max" DeadBusStartVoltageDifferenceMax (at);
+    "dead_bus_start_maximum_time" DeadBusStartMaximumTime (at);
+    "generator_breaker_monitoring" GeneratorBreakerMonitoring (at);
+    "automatic_breaker_unlocking" AutomaticBreakerUnlocking (at);
+    "generator_overload_monitoring" GeneratorOverloadMonitoring (at);
+    "overload_threshold_parallel_operation" OverloadThresholdParallelOperation (at);
+    "overload_delay_parallel_operation" OverloadDelayParallelOperation (at);
+    "overload_threshold_isolated_operation" OverloadThresholdIsolatedOperation (at);
+    "overload_delay_isolated_operation" OverloadDelayIsolatedOperation (at);
+    "generator_reverse_power_monitoring" GeneratorReversePowerMonitoring (at);
+    "reverse_power_threshold" ReversePowerThreshold (at);
+    "reverse_power_delay" ReversePowerDelay (at);
+    "generator_unbalanced_load_monitoring" GeneratorUnbalancedLoadMonitoring (at);
+    "unbalanced_load_threshold" UnbalancedLoadThreshold (at);
+    "unbalanced_load_delay" UnbalancedLoadDelay (at);
+    "generator_overcurrent_monitoring" GeneratorOvercurrentMonitoring (at);
+    "overcurrent_1_threshold" Overcurrent1Threshold (at);
+    "overcurrent_1_delay" Overcurrent1Delay (at);
+    "overcurrent_2_threshold" Overcurrent2Threshold (at);
+    "overcurrent_2_delay" Overcurrent2Delay (at);
+    "inverse_time_overcurrent" InverseTimeOvercurrent (at);
+    "inverse_time_overcurrent_characteristic" InverseTimeOvercurrentCharacteristic (at);
+    "inverse_time_overcurrent_tp" InverseTimeOvercurrentTp (at);
+    "inverse_time_overcurrent_ip" InverseTimeOvercurrentIp (at);
+    "inverse_time_overcurrent_istart" InverseTimeOvercurrentIstart (at);
+    "inverse_time_overcurrent_by_voltage" InverseTimeOvercurrentByVoltage (at);
+    "inverse_time_overcurrent_voltage_knee" InverseTimeOvercurrentVoltageKnee (at);
+    "generator_overfrequency_monitoring" GeneratorOverfrequencyMonitoring (at);
+    "generator_overfrequency_1_threshold" GeneratorOverfrequency1Threshold (at);
+    "generator_overfrequency_1_delay" GeneratorOverfrequency1Delay (at);
+    "generator_overfrequency_2_threshold" GeneratorOverfrequency2Threshold (at);
+    "generator_overfrequency_2_delay" GeneratorOverfrequency2Delay (at);
+    "generator_underfrequency_monitoring" GeneratorUnderfrequencyMonitoring (at);
+    "generator_underfrequency_1_threshold" GeneratorUnderfrequency1Threshold (at);
+    "generator_underfrequency_1_delay" GeneratorUnderfrequency1Delay (at);
+    "generator_underfrequency_2_threshold" GeneratorUnderfrequency2Threshold (at);
+    "generator_underfrequency_2_delay" GeneratorUnderfrequency2Delay (at);
+    "generator_overvoltage_monitoring" GeneratorOvervoltageMonitoring (at);
+    "generator_overvoltage_1_threshold_100v" GeneratorOvervoltage1Threshold100v (at);
+    "generator_overvoltage_1_threshold_400v" GeneratorOvervoltage1Threshold400v (at);
+    "generator_overvoltage_1_delay" GeneratorOvervoltage1Delay (at);
+    "generator_overvoltage_2_threshold_100v" GeneratorOvervoltage2Threshold100v (at);
+    "generator_overvoltage_2_threshold_400v" GeneratorOvervoltage2Threshold400v (at);
+    "generator_overvoltage_2_delay" GeneratorOvervoltage2Delay (at);
+    "generator_undervoltage_monitoring" GeneratorUndervoltageMonitoring (at);
+    "generator_undervoltage_1_threshold_100v" GeneratorUndervoltage1Threshold100v (at);
+    "generator_undervoltage_1_threshold_400v" GeneratorUndervoltage1Threshold400v (at);
+    "generator_undervoltage_1_delay" GeneratorUndervoltage1Delay (at);
+    "generator_undervoltage_2_threshold_100v" GeneratorUndervoltage2Threshold100v (at);
+    "generator_undervoltage_2_threshold_400v" GeneratorUndervoltage2Threshold400v (at);
+    "generator_undervoltage_2_delay" GeneratorUndervoltage2Delay (at);
+    "mains_frequency_monitoring" MainsFrequencyMonitoring (at);
+    "mains_overfrequency_threshold" MainsOverfrequencyThreshold (at);
+    "mains_overfrequency_delay" MainsOverfrequencyDelay (at);
+    "mains_underfrequency_threshold" MainsUnderfrequencyThreshold (at);
+    "mains_underfrequency_delay" MainsUnderfrequencyDelay (at);
+    "mains_voltage_monitoring" MainsVoltageMonitoring (at);
+    "mains_voltage_factor" MainsVoltageFactor (at);
+    "mains_overvoltage_threshold_100v" MainsOvervoltageThreshold100v (at);
+    "mains_overvoltage_threshold_400v" MainsOvervoltageThreshold400v (at);
+    "mains_overvoltage_delay" MainsOvervoltageDelay (at);
+    "mains_undervoltage_threshold_100v" MainsUndervoltageThreshold100v (at);
+    "mains_undervoltage_threshold_400v" MainsUndervoltageThreshold400v (at);
+    "mains_undervoltage_delay" MainsUndervoltageDelay (at);
+    "phase_shift_monitoring" PhaseShiftMonitoring (at);
+    "phase_shift_monitoring_phases" PhaseShiftMonitoringPhases (at);
+    "phase_shift_threshold_single_phase" PhaseShiftThresholdSinglePhase (at);
+    "phase_shift_threshold_three_phase" PhaseShiftThresholdThreePhase (at);
+    "reactive_power_monitoring" ReactivePowerMonitoring (at);
+    "reactive_power_threshold_inductive" ReactivePowerThresholdInductive (at);
+    "reactive_power_delay_inductive" ReactivePowerDelayInductive (at);
+    "reactive_power_threshold_capacitive" ReactivePowerThresholdCapacitive (at);
+    "reactive_power_delay_capacitive" ReactivePowerDelayCapacitive (at);
+    "earth_fault_monitoring" EarthFaultMonitoring (at);
+    "earth_fault_threshold" EarthFaultThreshold (at);
+    "earth_fault_delay" EarthFaultDelay (at);
+    "battery_undervoltage_threshold" BatteryUndervoltageThreshold (at);
+    "battery_undervoltage_delay" BatteryUndervoltageDelay (at);
+    "digital_inputs_1_to_4_logic" DigitalInputs1To4Logic (at);
+    "digital_inputs_1_to_4_delay" DigitalInputs1To4Delay (at);
+    "digital_inputs_1_to_4_engine_delay" DigitalInputs1To4EngineDelay (at);
+    "digital_inputs_1_to_4_fault_class" DigitalInputs1To4FaultClass (at);
+    "digital_inputs_5_to_8_logic" DigitalInputs5To8Logic (at);
+    "digital_inputs_5_to_8_delay" DigitalInputs5To8Delay (at);
+    "digital_inputs_5_to_8_engine_delay" DigitalInputs5To8EngineDelay (at);
+    "digital_inputs_5_to_8_fault_class" DigitalInputs5To8FaultClass (at);
+    "digital_inputs_9_to_12_logic" DigitalInputs9To12Logic (at);
+    "digital_inputs_9_to_12_delay" DigitalInputs9To12Delay (at);
+    "digital_inputs_9_to_12_engine_delay" DigitalInputs9To12EngineDelay (at);
+    "digital_inputs_9_to_12_fault_class" DigitalInputs9To12FaultClass (at);
+    "fault_text_terminal_62" FaultTextTerminal62 (text);
+    "fault_text_terminal_63" FaultTextTerminal63 (text);
+    "fault_text_terminal_64" FaultTextTerminal64 (text);
+    "fault_text_terminal_65" FaultTextTerminal65 (text);
+    "fault_text_terminal_66" FaultTextTerminal66 (text);
+    "fault_text_terminal_67" FaultTextTerminal67 (text);
+    "fault_text_terminal_68" FaultTextTerminal68 (text);
+    "fault_text_terminal_69" FaultTextTerminal69 (text);
+    "fault_text_terminal_70" FaultTextTerminal70 (text);
+    "fault_text_terminal_71" FaultTextTerminal71 (text);
+    "fault_text_terminal_72" FaultTextTerminal72 (text);
+    "fault_text_terminal_73" FaultTextTerminal73 (text);
+    "analog_output_1_source" AnalogOutput1Source (at);
+    "analog_output_1_current_range" AnalogOutput1CurrentRange (at);
+    "analog_output_1_value_at_0_percent" AnalogOutput1ValueAt0Percent (at);
+    "analog_output_1_value_at_100_percent" AnalogOutput1ValueAt100Percent (at);
+    "analog_output_2_source" AnalogOutput2Source (at);
+    "analog_output_2_current_range" AnalogOutput2CurrentRange (at);
+    "analog_output_2_value_at_0_percent" AnalogOutput2ValueAt0Percent (at);
+    "analog_output_2_value_at_100_percent" AnalogOutput2ValueAt100Percent (at);
+    "relay_1_event_1" Relay1Event1 (at);
+    "relay_1_logic_1" Relay1Logic1 (at);
+    "relay_1_event_2" Relay1Event2 (at);
+    "relay_1_logic_2" Relay1Logic2 (at);
+    "relay_1_event_3" Relay1Event3 (at);
+    "relay_1_logic_3" Relay1Logic3 (at);
+    "relay_2_event_1" Relay2Event1 (at);
+    "relay_2_logic_1" Relay2Logic1 (at);
+    "relay_2_event_2" Relay2Event2 (at);
+    "relay_2_logic_2" Relay2Logic2 (at);
+    "relay_2_event_3" Relay2Event3 (at);
+    "relay_2_logic_3" Relay2Logic3 (at);
+    "relay_3_event_1" Relay3Event1 (at);
+    "relay_3_logic_1" Relay3Logic1 (at);
+    "relay_3_event_2" Relay3Event2 (at);
+    "relay_3_logic_2" Relay3Logic2 (at);
+    "relay_3_event_3" Relay3Event3 (at);
+    "relay_3_logic_3" Relay3Logic3 (at);
+    "relay_4_event_1" Relay4Event1 (at);
+    "relay_4_logic_1" Relay4Logic1 (at);
+    "relay_4_event_2" Relay4Event2 (at);
+    "relay_4_logic_2" Relay4Logic2 (at);
+    "relay_4_event_3" Relay4Event3 (at);
+    "relay_4_logic_3" Relay4Logic3 (at);
+    "relay_5_event_1" Relay5Event1 (at);
+    "relay_5_logic_1" Relay5Logic1 (at);
+    "relay_5_event_2" Relay5Event2 (at);
+    "relay_5_logic_2" Relay5Logic2 (at);
+    "relay_5_event_3" Relay5Event3 (at);
+    "relay_5_logic_3" Relay5Logic3 (at);
+    "relay_6_event_1" Relay6Event1 (at);
+    "relay_6_logic_1" Relay6Logic1 (at);
+    "relay_6_event_2" Relay6Event2 (at);
+    "relay_6_logic_2" Relay6Logic2 (at);
+    "relay_6_event_3" Relay6Event3 (at);
+    "relay_6_logic_3" Relay6Logic3 (at);
+    "relay_7_event_1" Relay7Event1 (at);
+    "relay_7_logic_1" Relay7Logic1 (at);
+    "relay_7_event_2" Relay7Event2 (at);
+    "relay_7_logic_2" Relay7Logic2 (at);
+    "relay_7_event_3" Relay7Event3 (at);
+    "relay_7_logic_3" Relay7Logic3 (at);
+    "automatic_idle_control" AutomaticIdleControl (at);
+    "shutdown" Shutdown (at);
+    "engine_monitoring_delay" EngineMonitoringDelay (at);
+    "monitoring_start_frequency" MonitoringStartFrequency (at);
+} }
+
+table! { can_telegram can_telegram {
+    "telegram_identification" TelegramIdentification (frames);
+    "generator_frequency" GeneratorFrequency (frames);
+    "generator_active_power" GeneratorActivePower (frames);
+    "generator_power_exponent" GeneratorPowerExponent (frames);
+    "generator_voltage_exponent" GeneratorVoltageExponent (frames);
+    "present_active_power_setpoint" PresentActivePowerSetpoint (frames);
+    "active_power_setpoint_factor" ActivePowerSetpointFactor (frames);
+    "busbar_voltage_l1_l2" BusbarVoltageL1L2 (frames);
+    "mains_voltage_l1_l2" MainsVoltageL1L2 (frames);
+    "present_fault_classes" PresentFaultClasses (frames);
+    "control_register_2" ControlRegister2 (frames);
+    "control_register_1" ControlRegister1 (frames);
+    "internal_faults_8" InternalFaults8 (frames);
+    "internal_faults_6" InternalFaults6 (frames);
+    "generator_voltage_l2_l3" GeneratorVoltageL2L3 (frames);
+    "generator_voltage_l3_l1" GeneratorVoltageL3L1 (frames);
+    "generator_voltage_l1_n" GeneratorVoltageL1N (frames);
+    "generator_voltage_l2_n" GeneratorVoltageL2N (frames);
+    "generator_voltage_l3_n" GeneratorVoltageL3N (frames);
+    "generator_voltage_l1_l2" GeneratorVoltageL1L2 (frames);
+    "generator_current_l1" GeneratorCurrentL1 (frames);
+    "generator_current_l2" GeneratorCurrentL2 (frames);
+    "generator_current_l3" GeneratorCurrentL3 (frames);
+    "generator_cos_phi" GeneratorCosPhi (frames);
+    "load_sharing_participants" LoadSharingParticipants (frames);
+    "mains_state" MainsState (frames);
+    "generator_state" GeneratorState (frames);
+    "generator_current_exponent" GeneratorCurrentExponent (frames);
+    "busbar_frequency" BusbarFrequency (frames);
+    "busbar_state" BusbarState (frames);
+    "mains_voltage_l2_l3" MainsVoltageL2L3 (frames);
+    "mains_voltage_l3_l1" MainsVoltageL3L1 (frames);
+    "mains_voltage_l1_n" MainsVoltageL1N (frames);
+    "mains_voltage_l2_n" MainsVoltageL2N (frames);
+    "mains_voltage_l3_n" MainsVoltageL3N (frames);
+    "mains_frequency" MainsFrequency (frames);
+    "mains_voltage_exponent" MainsVoltageExponent (frames);
+    "busbar_voltage_exponent" BusbarVoltageExponent (frames);
+    "operating_hours" OperatingHours (frames);
+    "hours_until_maintenance" HoursUntilMaintenance (frames);
+    "engine_start_counter" EngineStartCounter (frames);
+    "generator_active_energy" GeneratorActiveEnergy (frames);
+    "battery_voltage" BatteryVoltage (frames);
+    "internal_faults_1" InternalFaults1 (frames);
+    "internal_faults_2" InternalFaults2 (frames);
+    "internal_faults_3" InternalFaults3 (frames);
+    "internal_faults_4" InternalFaults4 (frames);
+    "internal_faults_5" InternalFaults5 (frames);
+    "digital_input_faults_1_to_8" DigitalInputFaults1To8 (frames);
+    "digital_input_faults_9_to_16" DigitalInputFaults9To16 (frames);
+    "internal_faults_7" InternalFaults7 (frames);
+} }
+
 table! { decode decode {
     "generator_frequency" GeneratorFrequency ();
     "generator_active_power" GeneratorActivePower (GeneratorActivePower: generator_power_exponent
@@ -49,119 +580,6 @@ table! { decode decode {
     "mains_voltage_l3_n" MainsVoltageL3N (MainsVoltageL3N: mains_voltage_exponent "mains_voltage_exponent");
     "mains_frequency" MainsFrequency ();
     "battery_voltage" BatteryVoltage ();
-    "generator_frequency_setpoint" GeneratorFrequencySetpoint ();
-    "generator_rated_frequency" GeneratorRatedFrequency ();
-    "generator_voltage_setpoint_100v" GeneratorVoltageSetpoint100v (GeneratorVoltageSetpoint100v:
-        generator_voltage_factor "generator_voltage_factor");
-    "generator_voltage_setpoint_400v" GeneratorVoltageSetpoint400v (GeneratorVoltageSetpoint400v:
-        generator_voltage_factor "generator_voltage_factor");
-    "generator_rated_voltage_100v" GeneratorRatedVoltage100v (GeneratorRatedVoltage100v:
-        generator_voltage_factor "generator_voltage_factor");
-    "generator_rated_voltage_400v" GeneratorRatedVoltage400v (GeneratorRatedVoltage400v:
-        generator_voltage_factor "generator_voltage_factor");
-    "frequency_controller_start_frequency" FrequencyControllerStartFrequency ();
-    "frequency_controller_start_delay" FrequencyControllerStartDelay ();
-    "frequency_controller_dead_band" FrequencyControllerDeadBand ();
-    "frequency_controller_pulse_time" FrequencyControllerPulseTime ();
-    "frequency_controller_gain" FrequencyControllerGain ();
-    "voltage_controller_dead_band" VoltageControllerDeadBand ();
-    "voltage_controller_pulse_time" VoltageControllerPulseTime ();
-    "voltage_controller_gain" VoltageControllerGain ();
-    "cos_phi_controller_setpoint" CosPhiControllerSetpoint ();
-    "cos_phi_controller_dead_band" CosPhiControllerDeadBand ();
-    "cos_phi_controller_gain" CosPhiControllerGain ();
-    "active_power_controller_maximum" ActivePowerControllerMaximum ();
-    "active_power_controller_minimum" ActivePowerControllerMinimum ();
-    "active_power_controller_dead_band" ActivePowerControllerDeadBand ();
-    "active_power_controller_gain" ActivePowerControllerGain ();
-    "active_power_controller_reduction_factor" ActivePowerControllerReductionFactor ();
-    "part_load_lead_setpoint" PartLoadLeadSetpoint ();
-    "part_load_lead_time" PartLoadLeadTime ();
-    "load_ramp_maximum_time" LoadRampMaximumTime ();
-    "synchronisation_frequency_difference_max" SynchronisationFrequencyDifferenceMax ();
-    "synchronisation_frequency_difference_min" SynchronisationFrequencyDifferenceMin ();
-    "synchronisation_voltage_difference_max" SynchronisationVoltageDifferenceMax ();
-    "synchronisation_voltage_difference_min" SynchronisationVoltageDifferenceMin ();
-    "synchronisation_pulse_time" SynchronisationPulseTime ();
-    "dead_bus_start_frequency_difference_max" DeadBusStartFrequencyDifferenceMax ();
-    "dead_bus_start_voltage_difference_max" DeadBusStartVoltageDifferenceMax ();
-    "overload_threshold_parallel_operation" OverloadThresholdParallelOperation ();
-    "overload_delay_parallel_operation" OverloadDelayParallelOperation ();
-    "overload_threshold_isolated_operation" OverloadThresholdIsolatedOperation ();
-    "overload_delay_isolated_operation" OverloadDelayIsolatedOperation ();
-    "reverse_power_threshold" ReversePowerThreshold ();
-    "reverse_power_delay" ReversePowerDelay ();
-    "unbalanced_load_threshold" UnbalancedLoadThreshold ();
-    "unbalanced_load_delay" UnbalancedLoadDelay ();
-    "overcurrent_1_threshold" Overcurrent1Threshold ();
-    "overcurrent_1_delay" Overcurrent1Delay ();
-    "overcurrent_2_threshold" Overcurrent2Threshold ();
-    "overcurrent_2_delay" Overcurrent2Delay ();
-    "inverse_time_overcurrent_tp" InverseTimeOvercurrentTp ();
-    "inverse_time_overcurrent_ip" InverseTimeOvercurrentIp ();
-    "inverse_time_overcurrent_istart" InverseTimeOvercurrentIstart ();
-    "generator_overfrequency_1_threshold" GeneratorOverfrequency1Threshold ();
-    "generator_overfrequency_1_delay" GeneratorOverfrequency1Delay ();
-    "generator_overfrequency_2_threshold" GeneratorOverfrequency2Threshold ();
-    "generator_overfrequency_2_delay" GeneratorOverfrequency2Delay ();
-    "generator_underfrequency_1_threshold" GeneratorUnderfrequency1Threshold ();
-    "generator_underfrequency_1_delay" GeneratorUnderfrequency1Delay ();
-    "generator_underfrequency_2_threshold" GeneratorUnderfrequency2Threshold ();
-    "generator_underfrequency_2_delay" GeneratorUnderfrequency2Delay ();
-    "generator_overvoltage_1_threshold_100v" GeneratorOvervoltage1Threshold100v
-        (GeneratorOvervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_overvoltage_1_threshold_400v" GeneratorOvervoltage1Threshold400v
-        (GeneratorOvervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
-    "generator_overvoltage_1_delay" GeneratorOvervoltage1Delay ();
-    "generator_overvoltage_2_threshold_100v" GeneratorOvervoltage2Threshold100v
-        (GeneratorOvervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_overvoltage_2_threshold_400v" GeneratorOvervoltage2Threshold400v
-        (GeneratorOvervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
-    "generator_overvoltage_2_delay" GeneratorOvervoltage2Delay ();
-    "generator_undervoltage_1_threshold_100v" GeneratorUndervoltage1Threshold100v
-        (GeneratorUndervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_undervoltage_1_threshold_400v" GeneratorUndervoltage1Threshold400v
-        (GeneratorUndervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
-    "generator_undervoltage_1_delay" GeneratorUndervoltage1Delay ();
-    "generator_undervoltage_2_threshold_100v" GeneratorUndervoltage2Threshold100v
-        (GeneratorUndervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_undervoltage_2_threshold_400v" GeneratorUndervoltage2Threshold400v
-        (GeneratorUndervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
-    "generator_undervoltage_2_delay" GeneratorUndervoltage2Delay ();
-    "mains_overfrequency_threshold" MainsOverfrequencyThreshold ();
-    "mains_overfrequency_delay" MainsOverfrequencyDelay ();
-    "mains_underfrequency_threshold" MainsUnderfrequencyThreshold ();
-    "mains_underfrequency_delay" MainsUnderfrequencyDelay ();
-    "mains_overvoltage_threshold_100v" MainsOvervoltageThreshold100v (MainsOvervoltageThreshold100v:
-        mains_voltage_factor "mains_voltage_factor");
-    "mains_overvoltage_threshold_400v" MainsOvervoltageThreshold400v (MainsOvervoltageThreshold400v:
-        mains_voltage_factor "mains_voltage_factor");
-    "mains_overvoltage_delay" MainsOvervoltageDelay ();
-    "mains_undervoltage_threshold_100v" MainsUndervoltageThreshold100v (MainsUndervoltageThreshold100v:
-        mains_voltage_factor "mains_voltage_factor");
-    "mains_undervoltage_threshold_400v" MainsUndervoltageThreshold400v (MainsUndervoltageThreshold400v:
-        mains_voltage_factor "mains_voltage_factor");
-    "mains_undervoltage_delay" MainsUndervoltageDelay ();
-    "reactive_power_threshold_inductive" ReactivePowerThresholdInductive ();
-    "reactive_power_delay_inductive" ReactivePowerDelayInductive ();
-    "reactive_power_threshold_capacitive" ReactivePowerThresholdCapacitive ();
-    "reactive_power_delay_capacitive" ReactivePowerDelayCapacitive ();
-    "earth_fault_threshold" EarthFaultThreshold ();
-    "earth_fault_delay" EarthFaultDelay ();
-    "battery_undervoltage_threshold" BatteryUndervoltageThreshold ();
-    "battery_undervoltage_delay" BatteryUndervoltageDelay ();
-    "analog_output_1_value_at_0_percent" AnalogOutput1ValueAt0Percent (AnalogOutput1ValueAt0Percent:
-        analog_output_1_source "analog_output_1_source");
-    "analog_output_1_value_at_100_percent" AnalogOutput1ValueAt100Percent (AnalogOutput1ValueAt100Percent:
-        analog_output_1_source "analog_output_1_source");
-    "analog_output_2_value_at_0_percent" AnalogOutput2ValueAt0Percent (AnalogOutput2ValueAt0Percent:
-        analog_output_2_source "analog_output_2_source");
-    "analog_output_2_value_at_100_percent" AnalogOutput2ValueAt100Percent (AnalogOutput2ValueAt100Percent:
-        analog_output_2_source "analog_output_2_source");
-    "monitoring_start_frequency" MonitoringStartFrequency ();
-} }
-
-table! { encode encode {
     "generator_frequency_setpoint" GeneratorFrequencySetpoint ();
     "generator_rated_frequency" GeneratorRatedFrequency ();
     "generator_voltage_setpoint_100v" GeneratorVoltageSetpoint100v (GeneratorVoltageSetpoint100v:
@@ -426,680 +844,241 @@ table! { decode_count decode_count {
     "monitoring_start_frequency" MonitoringStartFrequency ();
 } }
 
-table! { decode_plain decode_plain {
-    "telegram_identification" TelegramIdentification ();
-    "generator_power_exponent" GeneratorPowerExponent ();
-    "generator_voltage_exponent" GeneratorVoltageExponent ();
-    "active_power_setpoint_factor" ActivePowerSetpointFactor ();
-    "present_fault_classes" PresentFaultClasses ();
-    "control_register_2" ControlRegister2 ();
-    "control_register_1" ControlRegister1 ();
-    "internal_faults_8" InternalFaults8 ();
-    "internal_faults_6" InternalFaults6 ();
-    "load_sharing_participants" LoadSharingParticipants ();
-    "mains_state" MainsState ();
-    "generator_state" GeneratorState ();
-    "generator_current_exponent" GeneratorCurrentExponent ();
-    "busbar_state" BusbarState ();
-    "mains_voltage_exponent" MainsVoltageExponent ();
-    "busbar_voltage_exponent" BusbarVoltageExponent ();
-    "operating_hours" OperatingHours ();
-    "hours_until_maintenance" HoursUntilMaintenance ();
-    "engine_start_counter" EngineStartCounter ();
-    "generator_active_energy" GeneratorActiveEnergy ();
-    "internal_faults_1" InternalFaults1 ();
-    "internal_faults_2" InternalFaults2 ();
-    "internal_faults_3" InternalFaults3 ();
-    "internal_faults_4" InternalFaults4 ();
-    "internal_faults_5" InternalFaults5 ();
-    "digital_input_faults_1_to_8" DigitalInputFaults1To8 ();
-    "digital_input_faults_9_to_16" DigitalInputFaults9To16 ();
-    "internal_faults_7" InternalFaults7 ();
-    "password_level_2" PasswordLevel2 ();
-    "generator_vt_secondary_100v" GeneratorVtSecondary100v ();
-    "generator_vt_secondary_400v" GeneratorVtSecondary400v ();
-    "generator_vt_primary" GeneratorVtPrimary ();
-    "busbar_vt_secondary_100v" BusbarVtSecondary100v ();
-    "busbar_vt_secondary_400v" BusbarVtSecondary400v ();
-    "busbar_vt_primary" BusbarVtPrimary ();
-    "mains_vt_secondary_100v" MainsVtSecondary100v ();
-    "mains_vt_secondary_400v" MainsVtSecondary400v ();
-    "mains_vt_primary" MainsVtPrimary ();
-    "generator_voltage_factor" GeneratorVoltageFactor ();
-    "generator_current_transformer_ratio" GeneratorCurrentTransformerRatio ();
-    "power_measurement_phases" PowerMeasurementPhases ();
-    "generator_rated_power" GeneratorRatedPower ();
-    "generator_rated_current" GeneratorRatedCurrent ();
-    "generator_power_setpoint_1" GeneratorPowerSetpoint1 ();
-    "generator_power_setpoint_2" GeneratorPowerSetpoint2 ();
-    "frequency_controller" FrequencyController ();
-    "voltage_controller" VoltageController ();
-    "cos_phi_controller" CosPhiController ();
-    "active_power_controller" ActivePowerController ();
-    "active_power_controller_ramp" ActivePowerControllerRamp ();
-    "control_by_interface_x1_x5" ControlByInterfaceX1X5 ();
-    "breaker_logic" BreakerLogic ();
-    "generator_breaker_signal_logic" GeneratorBreakerSignalLogic ();
-    "generator_breaker_open_relay_logic" GeneratorBreakerOpenRelayLogic ();
-    "generator_breaker_pick_up_time" GeneratorBreakerPickUpTime ();
-    "synchronisation_time_monitoring" SynchronisationTimeMonitoring ();
-    "synchronisation_time_monitoring_delay" SynchronisationTimeMonitoringDelay ();
-    "dead_bus_start" DeadBusStart ();
-    "dead_bus_start_maximum_time" DeadBusStartMaximumTime ();
-    "generator_breaker_monitoring" GeneratorBreakerMonitoring ();
-    "automatic_breaker_unlocking" AutomaticBreakerUnlocking ();
-    "generator_overload_monitoring" GeneratorOverloadMonitoring ();
-    "generator_reverse_power_monitoring" GeneratorReversePowerMonitoring ();
-    "generator_unbalanced_load_monitoring" GeneratorUnbalancedLoadMonitoring ();
-    "generator_overcurrent_monitoring" GeneratorOvercurrentMonitoring ();
-    "inverse_time_overcurrent" InverseTimeOvercurrent ();
-    "inverse_time_overcurrent_characteristic" InverseTimeOvercurrentCharacteristic ();
-    "inverse_time_overcurrent_by_voltage" InverseTimeOvercurrentByVoltage ();
-    "inverse_time_overcurrent_voltage_knee" InverseTimeOvercurrentVoltageKnee ();
-    "generator_overfrequency_monitoring" GeneratorOverfrequencyMonitoring ();
-    "generator_underfrequency_monitoring" GeneratorUnderfrequencyMonitoring ();
-    "generator_overvoltage_monitoring" GeneratorOvervoltageMonitoring ();
-    "generator_undervoltage_monitoring" GeneratorUndervoltageMonitoring ();
-    "mains_frequency_monitoring" MainsFrequencyMonitoring ();
-    "mains_voltage_monitoring" MainsVoltageMonitoring ();
-    "mains_voltage_factor" MainsVoltageFactor ();
-    "phase_shift_monitoring" PhaseShiftMonitoring ();
-    "phase_shift_monitoring_phases" PhaseShiftMonitoringPhases ();
-    "phase_shift_threshold_single_phase" PhaseShiftThresholdSinglePhase ();
-    "phase_shift_threshold_three_phase" PhaseShiftThresholdThreePhase ();
-    "reactive_power_monitoring" ReactivePowerMonitoring ();
-    "earth_fault_monitoring" EarthFaultMonitoring ();
-    "digital_inputs_1_to_4_logic" DigitalInputs1To4Logic ();
-    "digital_inputs_1_to_4_engine_delay" DigitalInputs1To4EngineDelay ();
-    "digital_inputs_5_to_8_logic" DigitalInputs5To8Logic ();
-    "digital_inputs_5_to_8_engine_delay" DigitalInputs5To8EngineDelay ();
-    "digital_inputs_9_to_12_logic" DigitalInputs9To12Logic ();
-    "digital_inputs_9_to_12_engine_delay" DigitalInputs9To12EngineDelay ();
-    "analog_output_1_source" AnalogOutput1Source ();
-    "analog_output_1_current_range" AnalogOutput1CurrentRange ();
-    "analog_output_2_source" AnalogOutput2Source ();
-    "analog_output_2_current_range" AnalogOutput2CurrentRange ();
-    "relay_1_event_1" Relay1Event1 ();
-    "relay_1_logic_1" Relay1Logic1 ();
-    "relay_1_event_2" Relay1Event2 ();
-    "relay_1_logic_2" Relay1Logic2 ();
-    "relay_1_event_3" Relay1Event3 ();
-    "relay_1_logic_3" Relay1Logic3 ();
-    "relay_2_event_1" Relay2Event1 ();
-    "relay_2_logic_1" Relay2Logic1 ();
-    "relay_2_event_2" Relay2Event2 ();
-    "relay_2_logic_2" Relay2Logic2 ();
-    "relay_2_event_3" Relay2Event3 ();
-    "relay_2_logic_3" Relay2Logic3 ();
-    "relay_3_event_1" Relay3Event1 ();
-    "relay_3_logic_1" Relay3Logic1 ();
-    "relay_3_event_2" Relay3Event2 ();
-    "relay_3_logic_2" Relay3Logic2 ();
-    "relay_3_event_3" Relay3Event3 ();
-    "relay_3_logic_3" Relay3Logic3 ();
-    "relay_4_event_1" Relay4Event1 ();
-    "relay_4_logic_1" Relay4Logic1 ();
-    "relay_4_event_2" Relay4Event2 ();
-    "relay_4_logic_2" Relay4Logic2 ();
-    "relay_4_event_3" Relay4Event3 ();
-    "relay_4_logic_3" Relay4Logic3 ();
-    "relay_5_event_1" Relay5Event1 ();
-    "relay_5_logic_1" Relay5Logic1 ();
-    "relay_5_event_2" Relay5Event2 ();
-    "relay_5_logic_2" Relay5Logic2 ();
-    "relay_5_event_3" Relay5Event3 ();
-    "relay_5_logic_3" Relay5Logic3 ();
-    "relay_6_event_1" Relay6Event1 ();
-    "relay_6_logic_1" Relay6Logic1 ();
-    "relay_6_event_2" Relay6Event2 ();
-    "relay_6_logic_2" Relay6Logic2 ();
-    "relay_6_event_3" Relay6Event3 ();
-    "relay_6_logic_3" Relay6Logic3 ();
-    "relay_7_event_1" Relay7Event1 ();
-    "relay_7_logic_1" Relay7Logic1 ();
-    "relay_7_event_2" Relay7Event2 ();
-    "relay_7_logic_2" Relay7Logic2 ();
-    "relay_7_event_3" Relay7Event3 ();
-    "relay_7_logic_3" Relay7Logic3 ();
-    "automatic_idle_control" AutomaticIdleControl ();
-    "shutdown" Shutdown ();
-    "engine_monitoring_delay" EngineMonitoringDelay ();
+table! { symbol symbol {
+    "generator_frequency" GeneratorFrequency (alone);
+    "generator_active_power" GeneratorActivePower (alone);
+    "present_active_power_setpoint" PresentActivePowerSetpoint (alone);
+    "busbar_voltage_l1_l2" BusbarVoltageL1L2 (alone);
+    "mains_voltage_l1_l2" MainsVoltageL1L2 (alone);
+    "generator_voltage_l2_l3" GeneratorVoltageL2L3 (alone);
+    "generator_voltage_l3_l1" GeneratorVoltageL3L1 (alone);
+    "generator_voltage_l1_n" GeneratorVoltageL1N (alone);
+    "generator_voltage_l2_n" GeneratorVoltageL2N (alone);
+    "generator_voltage_l3_n" GeneratorVoltageL3N (alone);
+    "generator_voltage_l1_l2" GeneratorVoltageL1L2 (alone);
+    "generator_current_l1" GeneratorCurrentL1 (alone);
+    "generator_current_l2" GeneratorCurrentL2 (alone);
+    "generator_current_l3" GeneratorCurrentL3 (alone);
+    "busbar_frequency" BusbarFrequency (alone);
+    "mains_voltage_l2_l3" MainsVoltageL2L3 (alone);
+    "mains_voltage_l3_l1" MainsVoltageL3L1 (alone);
+    "mains_voltage_l1_n" MainsVoltageL1N (alone);
+    "mains_voltage_l2_n" MainsVoltageL2N (alone);
+    "mains_voltage_l3_n" MainsVoltageL3N (alone);
+    "mains_frequency" MainsFrequency (alone);
+    "operating_hours" OperatingHours (alone);
+    "hours_until_maintenance" HoursUntilMaintenance (alone);
+    "generator_active_energy" GeneratorActiveEnergy (alone);
+    "battery_voltage" BatteryVoltage (alone);
+    "generator_frequency_setpoint" GeneratorFrequencySetpoint (alone);
+    "generator_rated_frequency" GeneratorRatedFrequency (alone);
+    "generator_vt_secondary_100v" GeneratorVtSecondary100v (alone);
+    "generator_vt_secondary_400v" GeneratorVtSecondary400v (alone);
+    "generator_vt_primary" GeneratorVtPrimary (alone);
+    "busbar_vt_secondary_100v" BusbarVtSecondary100v (alone);
+    "busbar_vt_secondary_400v" BusbarVtSecondary400v (alone);
+    "busbar_vt_primary" BusbarVtPrimary (alone);
+    "mains_vt_secondary_100v" MainsVtSecondary100v (alone);
+    "mains_vt_secondary_400v" MainsVtSecondary400v (alone);
+    "mains_vt_primary" MainsVtPrimary (alone);
+    "generator_voltage_setpoint_100v" GeneratorVoltageSetpoint100v (alone);
+    "generator_voltage_setpoint_400v" GeneratorVoltageSetpoint400v (alone);
+    "generator_rated_voltage_100v" GeneratorRatedVoltage100v (alone);
+    "generator_rated_voltage_400v" GeneratorRatedVoltage400v (alone);
+    "generator_current_transformer_ratio" GeneratorCurrentTransformerRatio (alone);
+    "generator_rated_power" GeneratorRatedPower (alone);
+    "generator_rated_current" GeneratorRatedCurrent (alone);
+    "generator_power_setpoint_1" GeneratorPowerSetpoint1 (alone);
+    "generator_power_setpoint_2" GeneratorPowerSetpoint2 (alone);
+    "frequency_controller_start_frequency" FrequencyControllerStartFrequency (alone);
+    "frequency_controller_start_delay" FrequencyControllerStartDelay (alone);
+    "frequency_controller_dead_band" FrequencyControllerDeadBand (alone);
+    "frequency_controller_pulse_time" FrequencyControllerPulseTime (alone);
+    "voltage_controller_dead_band" VoltageControllerDeadBand (alone);
+    "voltage_controller_pulse_time" VoltageControllerPulseTime (alone);
+    "cos_phi_controller_dead_band" CosPhiControllerDeadBand (alone);
+    "active_power_controller_ramp" ActivePowerControllerRamp (alone);
+    "active_power_controller_maximum" ActivePowerControllerMaximum (alone);
+    "active_power_controller_minimum" ActivePowerControllerMinimum (alone);
+    "active_power_controller_dead_band" ActivePowerControllerDeadBand (alone);
+    "part_load_lead_setpoint" PartLoadLeadSetpoint (alone);
+    "part_load_lead_time" PartLoadLeadTime (alone);
+    "load_ramp_maximum_time" LoadRampMaximumTime (alone);
+    "synchronisation_frequency_difference_max" SynchronisationFrequencyDifferenceMax (alone);
+    "synchronisation_frequency_difference_min" SynchronisationFrequencyDifferenceMin (alone);
+    "synchronisation_voltage_difference_max" SynchronisationVoltageDifferenceMax (alone);
+    "synchronisation_voltage_difference_min" SynchronisationVoltageDifferenceMin (alone);
+    "synchronisation_pulse_time" SynchronisationPulseTime (alone);
+    "generator_breaker_pick_up_time" GeneratorBreakerPickUpTime (alone);
+    "synchronisation_time_monitoring_delay" SynchronisationTimeMonitoringDelay (alone);
+    "dead_bus_start_frequency_difference_max" DeadBusStartFrequencyDifferenceMax (alone);
+    "dead_bus_start_voltage_difference_max" DeadBusStartVoltageDifferenceMax (alone);
+    "dead_bus_start_maximum_time" DeadBusStartMaximumTime (alone);
+    "overload_threshold_parallel_operation" OverloadThresholdParallelOperation (alone);
+    "overload_delay_parallel_operation" OverloadDelayParallelOperation (alone);
+    "overload_threshold_isolated_operation" OverloadThresholdIsolatedOperation (alone);
+    "overload_delay_isolated_operation" OverloadDelayIsolatedOperation (alone);
+    "reverse_power_threshold" ReversePowerThreshold (alone);
+    "reverse_power_delay" ReversePowerDelay (alone);
+    "unbalanced_load_threshold" UnbalancedLoadThreshold (alone);
+    "unbalanced_load_delay" UnbalancedLoadDelay (alone);
+    "overcurrent_1_threshold" Overcurrent1Threshold (alone);
+    "overcurrent_1_delay" Overcurrent1Delay (alone);
+    "overcurrent_2_threshold" Overcurrent2Threshold (alone);
+    "overcurrent_2_delay" Overcurrent2Delay (alone);
+    "inverse_time_overcurrent_tp" InverseTimeOvercurrentTp (alone);
+    "inverse_time_overcurrent_voltage_knee" InverseTimeOvercurrentVoltageKnee (alone);
+    "generator_overfrequency_1_threshold" GeneratorOverfrequency1Threshold (alone);
+    "generator_overfrequency_1_delay" GeneratorOverfrequency1Delay (alone);
+    "generator_overfrequency_2_threshold" GeneratorOverfrequency2Threshold (alone);
+    "generator_overfrequency_2_delay" GeneratorOverfrequency2Delay (alone);
+    "generator_underfrequency_1_threshold" GeneratorUnderfrequency1Threshold (alone);
+    "generator_underfrequency_1_delay" GeneratorUnderfrequency1Delay (alone);
+    "generator_underfrequency_2_threshold" GeneratorUnderfrequency2Threshold (alone);
+    "generator_underfrequency_2_delay" GeneratorUnderfrequency2Delay (alone);
+    "generator_overvoltage_1_threshold_100v" GeneratorOvervoltage1Threshold100v (alone);
+    "generator_overvoltage_1_threshold_400v" GeneratorOvervoltage1Threshold400v (alone);
+    "generator_overvoltage_1_delay" GeneratorOvervoltage1Delay (alone);
+    "generator_overvoltage_2_threshold_100v" GeneratorOvervoltage2Threshold100v (alone);
+    "generator_overvoltage_2_threshold_400v" GeneratorOvervoltage2Threshold400v (alone);
+    "generator_overvoltage_2_delay" GeneratorOvervoltage2Delay (alone);
+    "generator_undervoltage_1_threshold_100v" GeneratorUndervoltage1Threshold100v (alone);
+    "generator_undervoltage_1_threshold_400v" GeneratorUndervoltage1Threshold400v (alone);
+    "generator_undervoltage_1_delay" GeneratorUndervoltage1Delay (alone);
+    "generator_undervoltage_2_threshold_100v" GeneratorUndervoltage2Threshold100v (alone);
+    "generator_undervoltage_2_threshold_400v" GeneratorUndervoltage2Threshold400v (alone);
+    "generator_undervoltage_2_delay" GeneratorUndervoltage2Delay (alone);
+    "mains_overfrequency_threshold" MainsOverfrequencyThreshold (alone);
+    "mains_overfrequency_delay" MainsOverfrequencyDelay (alone);
+    "mains_underfrequency_threshold" MainsUnderfrequencyThreshold (alone);
+    "mains_underfrequency_delay" MainsUnderfrequencyDelay (alone);
+    "mains_overvoltage_threshold_100v" MainsOvervoltageThreshold100v (alone);
+    "mains_overvoltage_threshold_400v" MainsOvervoltageThreshold400v (alone);
+    "mains_overvoltage_delay" MainsOvervoltageDelay (alone);
+    "mains_undervoltage_threshold_100v" MainsUndervoltageThreshold100v (alone);
+    "mains_undervoltage_threshold_400v" MainsUndervoltageThreshold400v (alone);
+    "mains_undervoltage_delay" MainsUndervoltageDelay (alone);
+    "phase_shift_threshold_single_phase" PhaseShiftThresholdSinglePhase (alone);
+    "phase_shift_threshold_three_phase" PhaseShiftThresholdThreePhase (alone);
+    "reactive_power_threshold_inductive" ReactivePowerThresholdInductive (alone);
+    "reactive_power_delay_inductive" ReactivePowerDelayInductive (alone);
+    "reactive_power_threshold_capacitive" ReactivePowerThresholdCapacitive (alone);
+    "reactive_power_delay_capacitive" ReactivePowerDelayCapacitive (alone);
+    "earth_fault_threshold" EarthFaultThreshold (alone);
+    "earth_fault_delay" EarthFaultDelay (alone);
+    "battery_undervoltage_threshold" BatteryUndervoltageThreshold (alone);
+    "battery_undervoltage_delay" BatteryUndervoltageDelay (alone);
+    "engine_monitoring_delay" EngineMonitoringDelay (alone);
+    "monitoring_start_frequency" MonitoringStartFrequency (alone);
 } }
 
-table! { decode_coded decode_coded {
+table! { words words {
+    "generator_active_power" GeneratorActivePower (alone);
+    "present_active_power_setpoint" PresentActivePowerSetpoint (alone);
+    "generator_cos_phi" GeneratorCosPhi (alone);
+    "operating_hours" OperatingHours (alone);
+    "generator_active_energy" GeneratorActiveEnergy (alone);
+    "generator_power_setpoint_1" GeneratorPowerSetpoint1 (alone);
+    "generator_power_setpoint_2" GeneratorPowerSetpoint2 (alone);
+    "cos_phi_controller_setpoint" CosPhiControllerSetpoint (alone);
+    "reverse_power_threshold" ReversePowerThreshold (alone);
+    "analog_output_1_value_at_0_percent" AnalogOutput1ValueAt0Percent (alone);
+    "analog_output_1_value_at_100_percent" AnalogOutput1ValueAt100Percent (alone);
+    "analog_output_2_value_at_0_percent" AnalogOutput2ValueAt0Percent (alone);
+    "analog_output_2_value_at_100_percent" AnalogOutput2ValueAt100Percent (alone);
 } }
 
-table! { decode_mixed decode_count {
-} }
-
-table! { encode_count encode_count {
-    "generator_frequency_setpoint" GeneratorFrequencySetpoint ();
-    "generator_rated_frequency" GeneratorRatedFrequency ();
-    "generator_voltage_setpoint_100v" GeneratorVoltageSetpoint100v (GeneratorVoltageSetpoint100v:
-        generator_voltage_factor "generator_voltage_factor");
-    "generator_voltage_setpoint_400v" GeneratorVoltageSetpoint400v (GeneratorVoltageSetpoint400v:
-        generator_voltage_factor "generator_voltage_factor");
-    "generator_rated_voltage_100v" GeneratorRatedVoltage100v (GeneratorRatedVoltage100v:
-        generator_voltage_factor "generator_voltage_factor");
-    "generator_rated_voltage_400v" GeneratorRatedVoltage400v (GeneratorRatedVoltage400v:
-        generator_voltage_factor "generator_voltage_factor");
-    "frequency_controller_start_frequency" FrequencyControllerStartFrequency ();
-    "frequency_controller_start_delay" FrequencyControllerStartDelay ();
-    "frequency_controller_dead_band" FrequencyControllerDeadBand ();
-    "frequency_controller_pulse_time" FrequencyControllerPulseTime ();
-    "frequency_controller_gain" FrequencyControllerGain ();
-    "voltage_controller_dead_band" VoltageControllerDeadBand ();
-    "voltage_controller_pulse_time" VoltageControllerPulseTime ();
-    "voltage_controller_gain" VoltageControllerGain ();
-    "cos_phi_controller_setpoint" CosPhiControllerSetpoint ();
-    "cos_phi_controller_dead_band" CosPhiControllerDeadBand ();
-    "cos_phi_controller_gain" CosPhiControllerGain ();
-    "active_power_controller_maximum" ActivePowerControllerMaximum ();
-    "active_power_controller_minimum" ActivePowerControllerMinimum ();
-    "active_power_controller_dead_band" ActivePowerControllerDeadBand ();
-    "active_power_controller_gain" ActivePowerControllerGain ();
-    "active_power_controller_reduction_factor" ActivePowerControllerReductionFactor ();
-    "part_load_lead_setpoint" PartLoadLeadSetpoint ();
-    "part_load_lead_time" PartLoadLeadTime ();
-    "load_ramp_maximum_time" LoadRampMaximumTime ();
-    "synchronisation_frequency_difference_max" SynchronisationFrequencyDifferenceMax ();
-    "synchronisation_frequency_difference_min" SynchronisationFrequencyDifferenceMin ();
-    "synchronisation_voltage_difference_max" SynchronisationVoltageDifferenceMax ();
-    "synchronisation_voltage_difference_min" SynchronisationVoltageDifferenceMin ();
-    "synchronisation_pulse_time" SynchronisationPulseTime ();
-    "dead_bus_start_frequency_difference_max" DeadBusStartFrequencyDifferenceMax ();
-    "dead_bus_start_voltage_difference_max" DeadBusStartVoltageDifferenceMax ();
-    "overload_threshold_parallel_operation" OverloadThresholdParallelOperation ();
-    "overload_delay_parallel_operation" OverloadDelayParallelOperation ();
-    "overload_threshold_isolated_operation" OverloadThresholdIsolatedOperation ();
-    "overload_delay_isolated_operation" OverloadDelayIsolatedOperation ();
-    "reverse_power_threshold" ReversePowerThreshold ();
-    "reverse_power_delay" ReversePowerDelay ();
-    "unbalanced_load_threshold" UnbalancedLoadThreshold ();
-    "unbalanced_load_delay" UnbalancedLoadDelay ();
-    "overcurrent_1_threshold" Overcurrent1Threshold ();
-    "overcurrent_1_delay" Overcurrent1Delay ();
-    "overcurrent_2_threshold" Overcurrent2Threshold ();
-    "overcurrent_2_delay" Overcurrent2Delay ();
-    "inverse_time_overcurrent_tp" InverseTimeOvercurrentTp ();
-    "inverse_time_overcurrent_ip" InverseTimeOvercurrentIp ();
-    "inverse_time_overcurrent_istart" InverseTimeOvercurrentIstart ();
-    "generator_overfrequency_1_threshold" GeneratorOverfrequency1Threshold ();
-    "generator_overfrequency_1_delay" GeneratorOverfrequency1Delay ();
-    "generator_overfrequency_2_threshold" GeneratorOverfrequency2Threshold ();
-    "generator_overfrequency_2_delay" GeneratorOverfrequency2Delay ();
-    "generator_underfrequency_1_threshold" GeneratorUnderfrequency1Threshold ();
-    "generator_underfrequency_1_delay" GeneratorUnderfrequency1Delay ();
-    "generator_underfrequency_2_threshold" GeneratorUnderfrequency2Threshold ();
-    "generator_underfrequency_2_delay" GeneratorUnderfrequency2Delay ();
-    "generator_overvoltage_1_threshold_100v" GeneratorOvervoltage1Threshold100v
-        (GeneratorOvervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_overvoltage_1_threshold_400v" GeneratorOvervoltage1Threshold400v
-        (GeneratorOvervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
-    "generator_overvoltage_1_delay" GeneratorOvervoltage1Delay ();
-    "generator_overvoltage_2_threshold_100v" GeneratorOvervoltage2Threshold100v
-        (GeneratorOvervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_overvoltage_2_threshold_400v" GeneratorOvervoltage2Threshold400v
-        (GeneratorOvervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
-    "generator_overvoltage_2_delay" GeneratorOvervoltage2Delay ();
-    "generator_undervoltage_1_threshold_100v" GeneratorUndervoltage1Threshold100v
-        (GeneratorUndervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_undervoltage_1_threshold_400v" GeneratorUndervoltage1Threshold400v
-        (GeneratorUndervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
-    "generator_undervoltage_1_delay" GeneratorUndervoltage1Delay ();
-    "generator_undervoltage_2_threshold_100v" GeneratorUndervoltage2Threshold100v
-        (GeneratorUndervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_undervoltage_2_threshold_400v" GeneratorUndervoltage2Threshold400v
-        (GeneratorUndervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
-    "generator_undervoltage_2_delay" GeneratorUndervoltage2Delay ();
-    "mains_overfrequency_threshold" MainsOverfrequencyThreshold ();
-    "mains_overfrequency_delay" MainsOverfrequencyDelay ();
-    "mains_underfrequency_threshold" MainsUnderfrequencyThreshold ();
-    "mains_underfrequency_delay" MainsUnderfrequencyDelay ();
-    "mains_overvoltage_threshold_100v" MainsOvervoltageThreshold100v (MainsOvervoltageThreshold100v:
-        mains_voltage_factor "mains_voltage_factor");
-    "mains_overvoltage_threshold_400v" MainsOvervoltageThreshold400v (MainsOvervoltageThreshold400v:
-        mains_voltage_factor "mains_voltage_factor");
-    "mains_overvoltage_delay" MainsOvervoltageDelay ();
-    "mains_undervoltage_threshold_100v" MainsUndervoltageThreshold100v (MainsUndervoltageThreshold100v:
-        mains_voltage_factor "mains_voltage_factor");
-    "mains_undervoltage_threshold_400v" MainsUndervoltageThreshold400v (MainsUndervoltageThreshold400v:
-        mains_voltage_factor "mains_voltage_factor");
-    "mains_undervoltage_delay" MainsUndervoltageDelay ();
-    "reactive_power_threshold_inductive" ReactivePowerThresholdInductive ();
-    "reactive_power_delay_inductive" ReactivePowerDelayInductive ();
-    "reactive_power_threshold_capacitive" ReactivePowerThresholdCapacitive ();
-    "reactive_power_delay_capacitive" ReactivePowerDelayCapacitive ();
-    "earth_fault_threshold" EarthFaultThreshold ();
-    "earth_fault_delay" EarthFaultDelay ();
-    "battery_undervoltage_threshold" BatteryUndervoltageThreshold ();
-    "battery_undervoltage_delay" BatteryUndervoltageDelay ();
-    "analog_output_1_value_at_0_percent" AnalogOutput1ValueAt0Percent (AnalogOutput1ValueAt0Percent:
-        analog_output_1_source "analog_output_1_source");
-    "analog_output_1_value_at_100_percent" AnalogOutput1ValueAt100Percent (AnalogOutput1ValueAt100Percent:
-        analog_output_1_source "analog_output_1_source");
-    "analog_output_2_value_at_0_percent" AnalogOutput2ValueAt0Percent (AnalogOutput2ValueAt0Percent:
-        analog_output_2_source "analog_output_2_source");
-    "analog_output_2_value_at_100_percent" AnalogOutput2ValueAt100Percent (AnalogOutput2ValueAt100Percent:
-        analog_output_2_source "analog_output_2_source");
-    "monitoring_start_frequency" MonitoringStartFrequency ();
-} }
-
-table! { encode_plain encode_plain {
-    "password_level_2" PasswordLevel2 ();
-    "generator_vt_secondary_100v" GeneratorVtSecondary100v ();
-    "generator_vt_secondary_400v" GeneratorVtSecondary400v ();
-    "generator_vt_primary" GeneratorVtPrimary ();
-    "busbar_vt_secondary_100v" BusbarVtSecondary100v ();
-    "busbar_vt_secondary_400v" BusbarVtSecondary400v ();
-    "busbar_vt_primary" BusbarVtPrimary ();
-    "mains_vt_secondary_100v" MainsVtSecondary100v ();
-    "mains_vt_secondary_400v" MainsVtSecondary400v ();
-    "mains_vt_primary" MainsVtPrimary ();
-    "generator_current_transformer_ratio" GeneratorCurrentTransformerRatio ();
-    "power_measurement_phases" PowerMeasurementPhases ();
-    "generator_rated_power" GeneratorRatedPower ();
-    "generator_rated_current" GeneratorRatedCurrent ();
-    "generator_power_setpoint_1" GeneratorPowerSetpoint1 ();
-    "generator_power_setpoint_2" GeneratorPowerSetpoint2 ();
-    "frequency_controller" FrequencyController ();
-    "voltage_controller" VoltageController ();
-    "cos_phi_controller" CosPhiController ();
-    "active_power_controller" ActivePowerController ();
-    "active_power_controller_ramp" ActivePowerControllerRamp ();
-    "control_by_interface_x1_x5" ControlByInterfaceX1X5 ();
-    "breaker_logic" BreakerLogic ();
-    "generator_breaker_signal_logic" GeneratorBreakerSignalLogic ();
-    "generator_breaker_open_relay_logic" GeneratorBreakerOpenRelayLogic ();
-    "generator_breaker_pick_up_time" GeneratorBreakerPickUpTime ();
-    "synchronisation_time_monitoring" SynchronisationTimeMonitoring ();
-    "synchronisation_time_monitoring_delay" SynchronisationTimeMonitoringDelay ();
-    "dead_bus_start" DeadBusStart ();
-    "dead_bus_start_maximum_time" DeadBusStartMaximumTime ();
-    "generator_breaker_monitoring" GeneratorBreakerMonitoring ();
-    "automatic_breaker_unlocking" AutomaticBreakerUnlocking ();
-    "generator_overload_monitoring" GeneratorOverloadMonitoring ();
-    "generator_reverse_power_monitoring" GeneratorReversePowerMonitoring ();
-    "generator_unbalanced_load_monitoring" GeneratorUnbalancedLoadMonitoring ();
-    "generator_overcurrent_monitoring" GeneratorOvercurrentMonitoring ();
-    "inverse_time_overcurrent" InverseTimeOvercurrent ();
-    "inverse_time_overcurrent_characteristic" InverseTimeOvercurrentCharacteristic ();
-    "inverse_time_overcurrent_by_voltage" InverseTimeOvercurrentByVoltage ();
-    "inverse_time_overcurrent_voltage_knee" InverseTimeOvercurrentVoltageKnee ();
-    "generator_overfrequency_monitoring" GeneratorOverfrequencyMonitoring ();
-    "generator_underfrequency_monitoring" GeneratorUnderfrequencyMonitoring ();
-    "generator_overvoltage_monitoring" GeneratorOvervoltageMonitoring ();
-    "generator_undervoltage_monitoring" GeneratorUndervoltageMonitoring ();
-    "mains_frequency_monitoring" MainsFrequencyMonitoring ();
-    "mains_voltage_monitoring" MainsVoltageMonitoring ();
-    "phase_shift_monitoring" PhaseShiftMonitoring ();
-    "phase_shift_monitoring_phases" PhaseShiftMonitoringPhases ();
-    "phase_shift_threshold_single_phase" PhaseShiftThresholdSinglePhase ();
-    "phase_shift_threshold_three_phase" PhaseShiftThresholdThreePhase ();
-    "reactive_power_monitoring" ReactivePowerMonitoring ();
-    "earth_fault_monitoring" EarthFaultMonitoring ();
-    "digital_inputs_1_to_4_logic" DigitalInputs1To4Logic ();
-    "digital_inputs_1_to_4_engine_delay" DigitalInputs1To4EngineDelay ();
-    "digital_inputs_5_to_8_logic" DigitalInputs5To8Logic ();
-    "digital_inputs_5_to_8_engine_delay" DigitalInputs5To8EngineDelay ();
-    "digital_inputs_9_to_12_logic" DigitalInputs9To12Logic ();
-    "digital_inputs_9_to_12_engine_delay" DigitalInputs9To12EngineDelay ();
-    "analog_output_1_source" AnalogOutput1Source ();
-    "analog_output_1_current_range" AnalogOutput1CurrentRange ();
-    "analog_output_2_source" AnalogOutput2Source ();
-    "analog_output_2_current_range" AnalogOutput2CurrentRange ();
-    "relay_1_event_1" Relay1Event1 ();
-    "relay_1_logic_1" Relay1Logic1 ();
-    "relay_1_event_2" Relay1Event2 ();
-    "relay_1_logic_2" Relay1Logic2 ();
-    "relay_1_event_3" Relay1Event3 ();
-    "relay_1_logic_3" Relay1Logic3 ();
-    "relay_2_event_1" Relay2Event1 ();
-    "relay_2_logic_1" Relay2Logic1 ();
-    "relay_2_event_2" Relay2Event2 ();
-    "relay_2_logic_2" Relay2Logic2 ();
-    "relay_2_event_3" Relay2Event3 ();
-    "relay_2_logic_3" Relay2Logic3 ();
-    "relay_3_event_1" Relay3Event1 ();
-    "relay_3_logic_1" Relay3Logic1 ();
-    "relay_3_event_2" Relay3Event2 ();
-    "relay_3_logic_2" Relay3Logic2 ();
-    "relay_3_event_3" Relay3Event3 ();
-    "relay_3_logic_3" Relay3Logic3 ();
-    "relay_4_event_1" Relay4Event1 ();
-    "relay_4_logic_1" Relay4Logic1 ();
-    "relay_4_event_2" Relay4Event2 ();
-    "relay_4_logic_2" Relay4Logic2 ();
-    "relay_4_event_3" Relay4Event3 ();
-    "relay_4_logic_3" Relay4Logic3 ();
-    "relay_5_event_1" Relay5Event1 ();
-    "relay_5_logic_1" Relay5Logic1 ();
-    "relay_5_event_2" Relay5Event2 ();
-    "relay_5_logic_2" Relay5Logic2 ();
-    "relay_5_event_3" Relay5Event3 ();
-    "relay_5_logic_3" Relay5Logic3 ();
-    "relay_6_event_1" Relay6Event1 ();
-    "relay_6_logic_1" Relay6Logic1 ();
-    "relay_6_event_2" Relay6Event2 ();
-    "relay_6_logic_2" Relay6Logic2 ();
-    "relay_6_event_3" Relay6Event3 ();
-    "relay_6_logic_3" Relay6Logic3 ();
-    "relay_7_event_1" Relay7Event1 ();
-    "relay_7_logic_1" Relay7Logic1 ();
-    "relay_7_event_2" Relay7Event2 ();
-    "relay_7_logic_2" Relay7Logic2 ();
-    "relay_7_event_3" Relay7Event3 ();
-    "relay_7_logic_3" Relay7Logic3 ();
-    "automatic_idle_control" AutomaticIdleControl ();
-    "shutdown" Shutdown ();
-    "engine_monitoring_delay" EngineMonitoringDelay ();
-} }
-
-table! { encode_coded encode_coded {
-} }
-
-table! { encode_mixed encode_count {
-} }
-
-table! { check check {
-    "generator_frequency_setpoint" GeneratorFrequencySetpoint ();
-    "generator_rated_frequency" GeneratorRatedFrequency ();
-    "generator_voltage_setpoint_100v" GeneratorVoltageSetpoint100v (GeneratorVoltageSetpoint100v:
-        generator_voltage_factor "generator_voltage_factor");
-    "generator_voltage_setpoint_400v" GeneratorVoltageSetpoint400v (GeneratorVoltageSetpoint400v:
-        generator_voltage_factor "generator_voltage_factor");
-    "generator_rated_voltage_100v" GeneratorRatedVoltage100v (GeneratorRatedVoltage100v:
-        generator_voltage_factor "generator_voltage_factor");
-    "generator_rated_voltage_400v" GeneratorRatedVoltage400v (GeneratorRatedVoltage400v:
-        generator_voltage_factor "generator_voltage_factor");
-    "frequency_controller_start_frequency" FrequencyControllerStartFrequency ();
-    "frequency_controller_start_delay" FrequencyControllerStartDelay ();
-    "frequency_controller_dead_band" FrequencyControllerDeadBand ();
-    "frequency_controller_pulse_time" FrequencyControllerPulseTime ();
-    "frequency_controller_gain" FrequencyControllerGain ();
-    "voltage_controller_dead_band" VoltageControllerDeadBand ();
-    "voltage_controller_pulse_time" VoltageControllerPulseTime ();
-    "voltage_controller_gain" VoltageControllerGain ();
-    "cos_phi_controller_setpoint" CosPhiControllerSetpoint ();
-    "cos_phi_controller_dead_band" CosPhiControllerDeadBand ();
-    "cos_phi_controller_gain" CosPhiControllerGain ();
-    "active_power_controller_maximum" ActivePowerControllerMaximum ();
-    "active_power_controller_minimum" ActivePowerControllerMinimum ();
-    "active_power_controller_dead_band" ActivePowerControllerDeadBand ();
-    "active_power_controller_gain" ActivePowerControllerGain ();
-    "active_power_controller_reduction_factor" ActivePowerControllerReductionFactor ();
-    "part_load_lead_setpoint" PartLoadLeadSetpoint ();
-    "part_load_lead_time" PartLoadLeadTime ();
-    "load_ramp_maximum_time" LoadRampMaximumTime ();
-    "synchronisation_frequency_difference_max" SynchronisationFrequencyDifferenceMax ();
-    "synchronisation_frequency_difference_min" SynchronisationFrequencyDifferenceMin ();
-    "synchronisation_voltage_difference_max" SynchronisationVoltageDifferenceMax ();
-    "synchronisation_voltage_difference_min" SynchronisationVoltageDifferenceMin ();
-    "synchronisation_pulse_time" SynchronisationPulseTime ();
-    "dead_bus_start_frequency_difference_max" DeadBusStartFrequencyDifferenceMax ();
-    "dead_bus_start_voltage_difference_max" DeadBusStartVoltageDifferenceMax ();
-    "overload_threshold_parallel_operation" OverloadThresholdParallelOperation ();
-    "overload_delay_parallel_operation" OverloadDelayParallelOperation ();
-    "overload_threshold_isolated_operation" OverloadThresholdIsolatedOperation ();
-    "overload_delay_isolated_operation" OverloadDelayIsolatedOperation ();
-    "reverse_power_threshold" ReversePowerThreshold ();
-    "reverse_power_delay" ReversePowerDelay ();
-    "unbalanced_load_threshold" UnbalancedLoadThreshold ();
-    "unbalanced_load_delay" UnbalancedLoadDelay ();
-    "overcurrent_1_threshold" Overcurrent1Threshold ();
-    "overcurrent_1_delay" Overcurrent1Delay ();
-    "overcurrent_2_threshold" Overcurrent2Threshold ();
-    "overcurrent_2_delay" Overcurrent2Delay ();
-    "inverse_time_overcurrent_tp" InverseTimeOvercurrentTp ();
-    "inverse_time_overcurrent_ip" InverseTimeOvercurrentIp ();
-    "inverse_time_overcurrent_istart" InverseTimeOvercurrentIstart ();
-    "generator_overfrequency_1_threshold" GeneratorOverfrequency1Threshold ();
-    "generator_overfrequency_1_delay" GeneratorOverfrequency1Delay ();
-    "generator_overfrequency_2_threshold" GeneratorOverfrequency2Threshold ();
-    "generator_overfrequency_2_delay" GeneratorOverfrequency2Delay ();
-    "generator_underfrequency_1_threshold" GeneratorUnderfrequency1Threshold ();
-    "generator_underfrequency_1_delay" GeneratorUnderfrequency1Delay ();
-    "generator_underfrequency_2_threshold" GeneratorUnderfrequency2Threshold ();
-    "generator_underfrequency_2_delay" GeneratorUnderfrequency2Delay ();
-    "generator_overvoltage_1_threshold_100v" GeneratorOvervoltage1Threshold100v
-        (GeneratorOvervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_overvoltage_1_threshold_400v" GeneratorOvervoltage1Threshold400v
-        (GeneratorOvervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
-    "generator_overvoltage_1_delay" GeneratorOvervoltage1Delay ();
-    "generator_overvoltage_2_threshold_100v" GeneratorOvervoltage2Threshold100v
-        (GeneratorOvervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_overvoltage_2_threshold_400v" GeneratorOvervoltage2Threshold400v
-        (GeneratorOvervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
-    "generator_overvoltage_2_delay" GeneratorOvervoltage2Delay ();
-    "generator_undervoltage_1_threshold_100v" GeneratorUndervoltage1Threshold100v
-        (GeneratorUndervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_undervoltage_1_threshold_400v" GeneratorUndervoltage1Threshold400v
-        (GeneratorUndervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
-    "generator_undervoltage_1_delay" GeneratorUndervoltage1Delay ();
-    "generator_undervoltage_2_threshold_100v" GeneratorUndervoltage2Threshold100v
-        (GeneratorUndervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_undervoltage_2_threshold_400v" GeneratorUndervoltage2Threshold400v
-        (GeneratorUndervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
-    "generator_undervoltage_2_delay" GeneratorUndervoltage2Delay ();
-    "mains_overfrequency_threshold" MainsOverfrequencyThreshold ();
-    "mains_overfrequency_delay" MainsOverfrequencyDelay ();
-    "mains_underfrequency_threshold" MainsUnderfrequencyThreshold ();
-    "mains_underfrequency_delay" MainsUnderfrequencyDelay ();
-    "mains_overvoltage_threshold_100v" MainsOvervoltageThreshold100v (MainsOvervoltageThreshold100v:
-        mains_voltage_factor "mains_voltage_factor");
-    "mains_overvoltage_threshold_400v" MainsOvervoltageThreshold400v (MainsOvervoltageThreshold400v:
-        mains_voltage_factor "mains_voltage_factor");
-    "mains_overvoltage_delay" MainsOvervoltageDelay ();
-    "mains_undervoltage_threshold_100v" MainsUndervoltageThreshold100v (MainsUndervoltageThreshold100v:
-        mains_voltage_factor "mains_voltage_factor");
-    "mains_undervoltage_threshold_400v" MainsUndervoltageThreshold400v (MainsUndervoltageThreshold400v:
-        mains_voltage_factor "mains_voltage_factor");
-    "mains_undervoltage_delay" MainsUndervoltageDelay ();
-    "reactive_power_threshold_inductive" ReactivePowerThresholdInductive ();
-    "reactive_power_delay_inductive" ReactivePowerDelayInductive ();
-    "reactive_power_threshold_capacitive" ReactivePowerThresholdCapacitive ();
-    "reactive_power_delay_capacitive" ReactivePowerDelayCapacitive ();
-    "earth_fault_threshold" EarthFaultThreshold ();
-    "earth_fault_delay" EarthFaultDelay ();
-    "battery_undervoltage_threshold" BatteryUndervoltageThreshold ();
-    "battery_undervoltage_delay" BatteryUndervoltageDelay ();
-    "analog_output_1_value_at_0_percent" AnalogOutput1ValueAt0Percent (AnalogOutput1ValueAt0Percent:
-        analog_output_1_source "analog_output_1_source");
-    "analog_output_1_value_at_100_percent" AnalogOutput1ValueAt100Percent (AnalogOutput1ValueAt100Percent:
-        analog_output_1_source "analog_output_1_source");
-    "analog_output_2_value_at_0_percent" AnalogOutput2ValueAt0Percent (AnalogOutput2ValueAt0Percent:
-        analog_output_2_source "analog_output_2_source");
-    "analog_output_2_value_at_100_percent" AnalogOutput2ValueAt100Percent (AnalogOutput2ValueAt100Percent:
-        analog_output_2_source "analog_output_2_source");
-    "monitoring_start_frequency" MonitoringStartFrequency ();
-    "password_level_2" PasswordLevel2 ();
-    "generator_vt_secondary_100v" GeneratorVtSecondary100v ();
-    "generator_vt_secondary_400v" GeneratorVtSecondary400v ();
-    "generator_vt_primary" GeneratorVtPrimary ();
-    "busbar_vt_secondary_100v" BusbarVtSecondary100v ();
-    "busbar_vt_secondary_400v" BusbarVtSecondary400v ();
-    "busbar_vt_primary" BusbarVtPrimary ();
-    "mains_vt_secondary_100v" MainsVtSecondary100v ();
-    "mains_vt_secondary_400v" MainsVtSecondary400v ();
-    "mains_vt_primary" MainsVtPrimary ();
-    "generator_current_transformer_ratio" GeneratorCurrentTransformerRatio ();
-    "power_measurement_phases" PowerMeasurementPhases ();
-    "generator_rated_power" GeneratorRatedPower ();
-    "generator_rated_current" GeneratorRatedCurrent ();
-    "generator_power_setpoint_1" GeneratorPowerSetpoint1 ();
-    "generator_power_setpoint_2" GeneratorPowerSetpoint2 ();
-    "frequency_controller" FrequencyController ();
-    "voltage_controller" VoltageController ();
-    "cos_phi_controller" CosPhiController ();
-    "active_power_controller" ActivePowerController ();
-    "active_power_controller_ramp" ActivePowerControllerRamp ();
-    "control_by_interface_x1_x5" ControlByInterfaceX1X5 ();
-    "breaker_logic" BreakerLogic ();
-    "generator_breaker_signal_logic" GeneratorBreakerSignalLogic ();
-    "generator_breaker_open_relay_logic" GeneratorBreakerOpenRelayLogic ();
-    "generator_breaker_pick_up_time" GeneratorBreakerPickUpTime ();
-    "synchronisation_time_monitoring" SynchronisationTimeMonitoring ();
-    "synchronisation_time_monitoring_delay" SynchronisationTimeMonitoringDelay ();
-    "dead_bus_start" DeadBusStart ();
-    "dead_bus_start_maximum_time" DeadBusStartMaximumTime ();
-    "generator_breaker_monitoring" GeneratorBreakerMonitoring ();
-    "automatic_breaker_unlocking" AutomaticBreakerUnlocking ();
-    "generator_overload_monitoring" GeneratorOverloadMonitoring ();
-    "generator_reverse_power_monitoring" GeneratorReversePowerMonitoring ();
-    "generator_unbalanced_load_monitoring" GeneratorUnbalancedLoadMonitoring ();
-    "generator_overcurrent_monitoring" GeneratorOvercurrentMonitoring ();
-    "inverse_time_overcurrent" InverseTimeOvercurrent ();
-    "inverse_time_overcurrent_characteristic" InverseTimeOvercurrentCharacteristic ();
-    "inverse_time_overcurrent_by_voltage" InverseTimeOvercurrentByVoltage ();
-    "inverse_time_overcurrent_voltage_knee" InverseTimeOvercurrentVoltageKnee ();
-    "generator_overfrequency_monitoring" GeneratorOverfrequencyMonitoring ();
-    "generator_underfrequency_monitoring" GeneratorUnderfrequencyMonitoring ();
-    "generator_overvoltage_monitoring" GeneratorOvervoltageMonitoring ();
-    "generator_undervoltage_monitoring" GeneratorUndervoltageMonitoring ();
-    "mains_frequency_monitoring" MainsFrequencyMonitoring ();
-    "mains_voltage_monitoring" MainsVoltageMonitoring ();
-    "phase_shift_monitoring" PhaseShiftMonitoring ();
-    "phase_shift_monitoring_phases" PhaseShiftMonitoringPhases ();
-    "phase_shift_threshold_single_phase" PhaseShiftThresholdSinglePhase ();
-    "phase_shift_threshold_three_phase" PhaseShiftThresholdThreePhase ();
-    "reactive_power_monitoring" ReactivePowerMonitoring ();
-    "earth_fault_monitoring" EarthFaultMonitoring ();
-    "digital_inputs_1_to_4_logic" DigitalInputs1To4Logic ();
-    "digital_inputs_1_to_4_engine_delay" DigitalInputs1To4EngineDelay ();
-    "digital_inputs_5_to_8_logic" DigitalInputs5To8Logic ();
-    "digital_inputs_5_to_8_engine_delay" DigitalInputs5To8EngineDelay ();
-    "digital_inputs_9_to_12_logic" DigitalInputs9To12Logic ();
-    "digital_inputs_9_to_12_engine_delay" DigitalInputs9To12EngineDelay ();
-    "analog_output_1_source" AnalogOutput1Source ();
-    "analog_output_1_current_range" AnalogOutput1CurrentRange ();
-    "analog_output_2_source" AnalogOutput2Source ();
-    "analog_output_2_current_range" AnalogOutput2CurrentRange ();
-    "relay_1_event_1" Relay1Event1 ();
-    "relay_1_logic_1" Relay1Logic1 ();
-    "relay_1_event_2" Relay1Event2 ();
-    "relay_1_logic_2" Relay1Logic2 ();
-    "relay_1_event_3" Relay1Event3 ();
-    "relay_1_logic_3" Relay1Logic3 ();
-    "relay_2_event_1" Relay2Event1 ();
-    "relay_2_logic_1" Relay2Logic1 ();
-    "relay_2_event_2" Relay2Event2 ();
-    "relay_2_logic_2" Relay2Logic2 ();
-    "relay_2_event_3" Relay2Event3 ();
-    "relay_2_logic_3" Relay2Logic3 ();
-    "relay_3_event_1" Relay3Event1 ();
-    "relay_3_logic_1" Relay3Logic1 ();
-    "relay_3_event_2" Relay3Event2 ();
-    "relay_3_logic_2" Relay3Logic2 ();
-    "relay_3_event_3" Relay3Event3 ();
-    "relay_3_logic_3" Relay3Logic3 ();
-    "relay_4_event_1" Relay4Event1 ();
-    "relay_4_logic_1" Relay4Logic1 ();
-    "relay_4_event_2" Relay4Event2 ();
-    "relay_4_logic_2" Relay4Logic2 ();
-    "relay_4_event_3" Relay4Event3 ();
-    "relay_4_logic_3" Relay4Logic3 ();
-    "relay_5_event_1" Relay5Event1 ();
-    "relay_5_logic_1" Relay5Logic1 ();
-    "relay_5_event_2" Relay5Event2 ();
-    "relay_5_logic_2" Relay5Logic2 ();
-    "relay_5_event_3" Relay5Event3 ();
-    "relay_5_logic_3" Relay5Logic3 ();
-    "relay_6_event_1" Relay6Event1 ();
-    "relay_6_logic_1" Relay6Logic1 ();
-    "relay_6_event_2" Relay6Event2 ();
-    "relay_6_logic_2" Relay6Logic2 ();
-    "relay_6_event_3" Relay6Event3 ();
-    "relay_6_logic_3" Relay6Logic3 ();
-    "relay_7_event_1" Relay7Event1 ();
-    "relay_7_logic_1" Relay7Logic1 ();
-    "relay_7_event_2" Relay7Event2 ();
-    "relay_7_logic_2" Relay7Logic2 ();
-    "relay_7_event_3" Relay7Event3 ();
-    "relay_7_logic_3" Relay7Logic3 ();
-    "automatic_idle_control" AutomaticIdleControl ();
-    "shutdown" Shutdown ();
-    "engine_monitoring_delay" EngineMonitoringDelay ();
-    "digital_inputs_1_to_4_delay" DigitalInputs1To4Delay ();
-    "digital_inputs_1_to_4_fault_class" DigitalInputs1To4FaultClass ();
-    "digital_inputs_5_to_8_delay" DigitalInputs5To8Delay ();
-    "digital_inputs_5_to_8_fault_class" DigitalInputs5To8FaultClass ();
-    "digital_inputs_9_to_12_delay" DigitalInputs9To12Delay ();
-    "digital_inputs_9_to_12_fault_class" DigitalInputs9To12FaultClass ();
-} }
-
-table! { name name {
-    "mains_state" SupplyPresence (enum u8);
-    "generator_state" SupplyPresence (enum u8);
-    "busbar_state" SupplyPresence (enum u8);
-    "power_measurement_phases" PowerMeasurementPhases (enum u8);
-    "frequency_controller" Switch2 (enum u8);
-    "voltage_controller" Switch2 (enum u8);
-    "cos_phi_controller" Switch2 (enum u8);
-    "active_power_controller" Switch2 (enum u8);
-    "control_by_interface_x1_x5" Switch2 (enum u8);
-    "breaker_logic" BreakerLogic (enum u8);
-    "generator_breaker_signal_logic" GeneratorBreakerSignalLogic (enum u8);
-    "generator_breaker_open_relay_logic" ContactLogic (enum u8);
-    "synchronisation_time_monitoring" OffOn (enum u8);
-    "dead_bus_start" Switch2 (enum u8);
-    "generator_breaker_monitoring" OffOn (enum u8);
-    "automatic_breaker_unlocking" OffOn (enum u8);
-    "generator_overload_monitoring" OffOn (enum u8);
-    "generator_reverse_power_monitoring" OffOn (enum u8);
-    "generator_unbalanced_load_monitoring" OffOn (enum u8);
-    "generator_overcurrent_monitoring" OffOn (enum u8);
-    "inverse_time_overcurrent" OffOn (enum u8);
-    "inverse_time_overcurrent_characteristic" InverseTimeOvercurrentCharacteristic (enum u8);
-    "inverse_time_overcurrent_by_voltage" OffOn (enum u8);
-    "generator_overfrequency_monitoring" OffOn (enum u8);
-    "generator_underfrequency_monitoring" OffOn (enum u8);
-    "generator_overvoltage_monitoring" OffOn (enum u8);
-    "generator_undervoltage_monitoring" OffOn (enum u8);
-    "mains_frequency_monitoring" OffOn (enum u8);
-    "mains_voltage_monitoring" OffOn (enum u8);
-    "phase_shift_monitoring" OffOn (enum u8);
-    "phase_shift_monitoring_phases" PhaseShiftMonitoringPhases (enum u8);
-    "reactive_power_monitoring" OffOn (enum u8);
-    "earth_fault_monitoring" OffOn (enum u8);
-    "analog_output_1_source" AnalogSource (enum u16);
-    "analog_output_1_current_range" CurrentRange (enum u8);
-    "analog_output_2_source" AnalogSource (enum u16);
-    "analog_output_2_current_range" CurrentRange (enum u8);
-    "relay_1_event_1" RelayEvent (enum u8);
-    "relay_1_event_2" RelayEvent (enum u8);
-    "relay_1_event_3" RelayEvent (enum u8);
-    "relay_2_event_1" RelayEvent (enum u8);
-    "relay_2_event_2" RelayEvent (enum u8);
-    "relay_2_event_3" RelayEvent (enum u8);
-    "relay_3_event_1" RelayEvent (enum u8);
-    "relay_3_event_2" RelayEvent (enum u8);
-    "relay_3_event_3" RelayEvent (enum u8);
-    "relay_4_event_1" RelayEvent (enum u8);
-    "relay_4_event_2" RelayEvent (enum u8);
-    "relay_4_event_3" RelayEvent (enum u8);
-    "relay_5_event_1" RelayEvent (enum u8);
-    "relay_5_event_2" RelayEvent (enum u8);
-    "relay_5_event_3" RelayEvent (enum u8);
-    "relay_6_event_1" RelayEvent (enum u8);
-    "relay_6_event_2" RelayEvent (enum u8);
-    "relay_6_event_3" RelayEvent (enum u8);
-    "relay_7_event_1" RelayEvent (enum u8);
-    "relay_7_event_2" RelayEvent (enum u8);
-    "relay_7_event_3" RelayEvent (enum u8);
-    "automatic_idle_control" OffOn (enum u8);
-    "shutdown" OffOn (enum u8);
-    "digital_inputs_1_to_4_delay" InputDelay (enum u16);
-    "digital_inputs_1_to_4_fault_class" FaultClass (enum u16);
-    "digital_inputs_5_to_8_delay" InputDelay (enum u16);
-    "digital_inputs_5_to_8_fault_class" FaultClass (enum u16);
-    "digital_inputs_9_to_12_delay" InputDelay (enum u16);
-    "digital_inputs_9_to_12_fault_class" FaultClass (enum u16);
-} }
-
-table! { special special {
-} }
-
-table! { special_name special_name {
+table! { bits bits {
+    "generator_power_exponent" GeneratorPowerExponent (alone);
+    "generator_voltage_exponent" GeneratorVoltageExponent (alone);
+    "mains_state" MainsState (alone);
+    "generator_state" GeneratorState (alone);
+    "generator_current_exponent" GeneratorCurrentExponent (alone);
+    "busbar_state" BusbarState (alone);
+    "mains_voltage_exponent" MainsVoltageExponent (alone);
+    "busbar_voltage_exponent" BusbarVoltageExponent (alone);
+    "power_measurement_phases" PowerMeasurementPhases (alone);
+    "frequency_controller" FrequencyController (alone);
+    "voltage_controller" VoltageController (alone);
+    "cos_phi_controller" CosPhiController (alone);
+    "active_power_controller" ActivePowerController (alone);
+    "control_by_interface_x1_x5" ControlByInterfaceX1X5 (alone);
+    "breaker_logic" BreakerLogic (alone);
+    "generator_breaker_signal_logic" GeneratorBreakerSignalLogic (alone);
+    "generator_breaker_open_relay_logic" GeneratorBreakerOpenRelayLogic (alone);
+    "synchronisation_time_monitoring" SynchronisationTimeMonitoring (alone);
+    "dead_bus_start" DeadBusStart (alone);
+    "generator_breaker_monitoring" GeneratorBreakerMonitoring (alone);
+    "automatic_breaker_unlocking" AutomaticBreakerUnlocking (alone);
+    "generator_overload_monitoring" GeneratorOverloadMonitoring (alone);
+    "generator_reverse_power_monitoring" GeneratorReversePowerMonitoring (alone);
+    "generator_unbalanced_load_monitoring" GeneratorUnbalancedLoadMonitoring (alone);
+    "generator_overcurrent_monitoring" GeneratorOvercurrentMonitoring (alone);
+    "inverse_time_overcurrent" InverseTimeOvercurrent (alone);
+    "inverse_time_overcurrent_characteristic" InverseTimeOvercurrentCharacteristic (alone);
+    "inverse_time_overcurrent_by_voltage" InverseTimeOvercurrentByVoltage (alone);
+    "generator_overfrequency_monitoring" GeneratorOverfrequencyMonitoring (alone);
+    "generator_underfrequency_monitoring" GeneratorUnderfrequencyMonitoring (alone);
+    "generator_overvoltage_monitoring" GeneratorOvervoltageMonitoring (alone);
+    "generator_undervoltage_monitoring" GeneratorUndervoltageMonitoring (alone);
+    "mains_frequency_monitoring" MainsFrequencyMonitoring (alone);
+    "mains_voltage_monitoring" MainsVoltageMonitoring (alone);
+    "phase_shift_monitoring" PhaseShiftMonitoring (alone);
+    "phase_shift_monitoring_phases" PhaseShiftMonitoringPhases (alone);
+    "reactive_power_monitoring" ReactivePowerMonitoring (alone);
+    "earth_fault_monitoring" EarthFaultMonitoring (alone);
+    "digital_inputs_1_to_4_logic" DigitalInputs1To4Logic (alone);
+    "digital_inputs_1_to_4_engine_delay" DigitalInputs1To4EngineDelay (alone);
+    "digital_inputs_5_to_8_logic" DigitalInputs5To8Logic (alone);
+    "digital_inputs_5_to_8_engine_delay" DigitalInputs5To8EngineDelay (alone);
+    "digital_inputs_9_to_12_logic" DigitalInputs9To12Logic (alone);
+    "digital_inputs_9_to_12_engine_delay" DigitalInputs9To12EngineDelay (alone);
+    "analog_output_1_current_range" AnalogOutput1CurrentRange (alone);
+    "analog_output_2_current_range" AnalogOutput2CurrentRange (alone);
+    "relay_1_event_1" Relay1Event1 (alone);
+    "relay_1_logic_1" Relay1Logic1 (alone);
+    "relay_1_event_2" Relay1Event2 (alone);
+    "relay_1_logic_2" Relay1Logic2 (alone);
+    "relay_1_event_3" Relay1Event3 (alone);
+    "relay_1_logic_3" Relay1Logic3 (alone);
+    "relay_2_event_1" Relay2Event1 (alone);
+    "relay_2_logic_1" Relay2Logic1 (alone);
+    "relay_2_event_2" Relay2Event2 (alone);
+    "relay_2_logic_2" Relay2Logic2 (alone);
+    "relay_2_event_3" Relay2Event3 (alone);
+    "relay_2_logic_3" Relay2Logic3 (alone);
+    "relay_3_event_1" Relay3Event1 (alone);
+    "relay_3_logic_1" Relay3Logic1 (alone);
+    "relay_3_event_2" Relay3Event2 (alone);
+    "relay_3_logic_2" Relay3Logic2 (alone);
+    "relay_3_event_3" Relay3Event3 (alone);
+    "relay_3_logic_3" Relay3Logic3 (alone);
+    "relay_4_event_1" Relay4Event1 (alone);
+    "relay_4_logic_1" Relay4Logic1 (alone);
+    "relay_4_event_2" Relay4Event2 (alone);
+    "relay_4_logic_2" Relay4Logic2 (alone);
+    "relay_4_event_3" Relay4Event3 (alone);
+    "relay_4_logic_3" Relay4Logic3 (alone);
+    "relay_5_event_1" Relay5Event1 (alone);
+    "relay_5_logic_1" Relay5Logic1 (alone);
+    "relay_5_event_2" Relay5Event2 (alone);
+    "relay_5_logic_2" Relay5Logic2 (alone);
+    "relay_5_event_3" Relay5Event3 (alone);
+    "relay_5_logic_3" Relay5Logic3 (alone);
+    "relay_6_event_1" Relay6Event1 (alone);
+    "relay_6_logic_1" Relay6Logic1 (alone);
+    "relay_6_event_2" Relay6Event2 (alone);
+    "relay_6_logic_2" Relay6Logic2 (alone);
+    "relay_6_event_3" Relay6Event3 (alone);
+    "relay_6_logic_3" Relay6Logic3 (alone);
+    "relay_7_event_1" Relay7Event1 (alone);
+    "relay_7_logic_1" Relay7Logic1 (alone);
+    "relay_7_event_2" Relay7Event2 (alone);
+    "relay_7_logic_2" Relay7Logic2 (alone);
+    "relay_7_event_3" Relay7Event3 (alone);
+    "relay_7_logic_3" Relay7Logic3 (alone);
+    "automatic_idle_control" AutomaticIdleControl (alone);
+    "shutdown" Shutdown (alone);
 } }
 
 table! { flag flag {
@@ -1542,725 +1521,409 @@ table! { flag_name flag_name {
         DIGITAL_INPUT_16_ACTIVE);
 } }
 
-table! { bits bits {
-    "generator_power_exponent" GeneratorPowerExponent (alone);
-    "generator_voltage_exponent" GeneratorVoltageExponent (alone);
-    "mains_state" MainsState (alone);
-    "generator_state" GeneratorState (alone);
-    "generator_current_exponent" GeneratorCurrentExponent (alone);
-    "busbar_state" BusbarState (alone);
-    "mains_voltage_exponent" MainsVoltageExponent (alone);
-    "busbar_voltage_exponent" BusbarVoltageExponent (alone);
-    "power_measurement_phases" PowerMeasurementPhases (alone);
-    "frequency_controller" FrequencyController (alone);
-    "voltage_controller" VoltageController (alone);
-    "cos_phi_controller" CosPhiController (alone);
-    "active_power_controller" ActivePowerController (alone);
-    "control_by_interface_x1_x5" ControlByInterfaceX1X5 (alone);
-    "breaker_logic" BreakerLogic (alone);
-    "generator_breaker_signal_logic" GeneratorBreakerSignalLogic (alone);
-    "generator_breaker_open_relay_logic" GeneratorBreakerOpenRelayLogic (alone);
-    "synchronisation_time_monitoring" SynchronisationTimeMonitoring (alone);
-    "dead_bus_start" DeadBusStart (alone);
-    "generator_breaker_monitoring" GeneratorBreakerMonitoring (alone);
-    "automatic_breaker_unlocking" AutomaticBreakerUnlocking (alone);
-    "generator_overload_monitoring" GeneratorOverloadMonitoring (alone);
-    "generator_reverse_power_monitoring" GeneratorReversePowerMonitoring (alone);
-    "generator_unbalanced_load_monitoring" GeneratorUnbalancedLoadMonitoring (alone);
-    "generator_overcurrent_monitoring" GeneratorOvercurrentMonitoring (alone);
-    "inverse_time_overcurrent" InverseTimeOvercurrent (alone);
-    "inverse_time_overcurrent_characteristic" InverseTimeOvercurrentCharacteristic (alone);
-    "inverse_time_overcurrent_by_voltage" InverseTimeOvercurrentByVoltage (alone);
-    "generator_overfrequency_monitoring" GeneratorOverfrequencyMonitoring (alone);
-    "generator_underfrequency_monitoring" GeneratorUnderfrequencyMonitoring (alone);
-    "generator_overvoltage_monitoring" GeneratorOvervoltageMonitoring (alone);
-    "generator_undervoltage_monitoring" GeneratorUndervoltageMonitoring (alone);
-    "mains_frequency_monitoring" MainsFrequencyMonitoring (alone);
-    "mains_voltage_monitoring" MainsVoltageMonitoring (alone);
-    "phase_shift_monitoring" PhaseShiftMonitoring (alone);
-    "phase_shift_monitoring_phases" PhaseShiftMonitoringPhases (alone);
-    "reactive_power_monitoring" ReactivePowerMonitoring (alone);
-    "earth_fault_monitoring" EarthFaultMonitoring (alone);
-    "digital_inputs_1_to_4_logic" DigitalInputs1To4Logic (alone);
-    "digital_inputs_1_to_4_engine_delay" DigitalInputs1To4EngineDelay (alone);
-    "digital_inputs_5_to_8_logic" DigitalInputs5To8Logic (alone);
-    "digital_inputs_5_to_8_engine_delay" DigitalInputs5To8EngineDelay (alone);
-    "digital_inputs_9_to_12_logic" DigitalInputs9To12Logic (alone);
-    "digital_inputs_9_to_12_engine_delay" DigitalInputs9To12EngineDelay (alone);
-    "analog_output_1_current_range" AnalogOutput1CurrentRange (alone);
-    "analog_output_2_current_range" AnalogOutput2CurrentRange (alone);
-    "relay_1_event_1" Relay1Event1 (alone);
-    "relay_1_logic_1" Relay1Logic1 (alone);
-    "relay_1_event_2" Relay1Event2 (alone);
-    "relay_1_logic_2" Relay1Logic2 (alone);
-    "relay_1_event_3" Relay1Event3 (alone);
-    "relay_1_logic_3" Relay1Logic3 (alone);
-    "relay_2_event_1" Relay2Event1 (alone);
-    "relay_2_logic_1" Relay2Logic1 (alone);
-    "relay_2_event_2" Relay2Event2 (alone);
-    "relay_2_logic_2" Relay2Logic2 (alone);
-    "relay_2_event_3" Relay2Event3 (alone);
-    "relay_2_logic_3" Relay2Logic3 (alone);
-    "relay_3_event_1" Relay3Event1 (alone);
-    "relay_3_logic_1" Relay3Logic1 (alone);
-    "relay_3_event_2" Relay3Event2 (alone);
-    "relay_3_logic_2" Relay3Logic2 (alone);
-    "relay_3_event_3" Relay3Event3 (alone);
-    "relay_3_logic_3" Relay3Logic3 (alone);
-    "relay_4_event_1" Relay4Event1 (alone);
-    "relay_4_logic_1" Relay4Logic1 (alone);
-    "relay_4_event_2" Relay4Event2 (alone);
-    "relay_4_logic_2" Relay4Logic2 (alone);
-    "relay_4_event_3" Relay4Event3 (alone);
-    "relay_4_logic_3" Relay4Logic3 (alone);
-    "relay_5_event_1" Relay5Event1 (alone);
-    "relay_5_logic_1" Relay5Logic1 (alone);
-    "relay_5_event_2" Relay5Event2 (alone);
-    "relay_5_logic_2" Relay5Logic2 (alone);
-    "relay_5_event_3" Relay5Event3 (alone);
-    "relay_5_logic_3" Relay5Logic3 (alone);
-    "relay_6_event_1" Relay6Event1 (alone);
-    "relay_6_logic_1" Relay6Logic1 (alone);
-    "relay_6_event_2" Relay6Event2 (alone);
-    "relay_6_logic_2" Relay6Logic2 (alone);
-    "relay_6_event_3" Relay6Event3 (alone);
-    "relay_6_logic_3" Relay6Logic3 (alone);
-    "relay_7_event_1" Relay7Event1 (alone);
-    "relay_7_logic_1" Relay7Logic1 (alone);
-    "relay_7_event_2" Relay7Event2 (alone);
-    "relay_7_logic_2" Relay7Logic2 (alone);
-    "relay_7_event_3" Relay7Event3 (alone);
-    "relay_7_logic_3" Relay7Logic3 (alone);
-    "automatic_idle_control" AutomaticIdleControl (alone);
-    "shutdown" Shutdown (alone);
+table! { name name {
+    "mains_state" SupplyPresence (enum u8);
+    "generator_state" SupplyPresence (enum u8);
+    "busbar_state" SupplyPresence (enum u8);
+    "power_measurement_phases" PowerMeasurementPhases (enum u8);
+    "frequency_controller" Switch2 (enum u8);
+    "voltage_controller" Switch2 (enum u8);
+    "cos_phi_controller" Switch2 (enum u8);
+    "active_power_controller" Switch2 (enum u8);
+    "control_by_interface_x1_x5" Switch2 (enum u8);
+    "breaker_logic" BreakerLogic (enum u8);
+    "generator_breaker_signal_logic" GeneratorBreakerSignalLogic (enum u8);
+    "generator_breaker_open_relay_logic" ContactLogic (enum u8);
+    "synchronisation_time_monitoring" OffOn (enum u8);
+    "dead_bus_start" Switch2 (enum u8);
+    "generator_breaker_monitoring" OffOn (enum u8);
+    "automatic_breaker_unlocking" OffOn (enum u8);
+    "generator_overload_monitoring" OffOn (enum u8);
+    "generator_reverse_power_monitoring" OffOn (enum u8);
+    "generator_unbalanced_load_monitoring" OffOn (enum u8);
+    "generator_overcurrent_monitoring" OffOn (enum u8);
+    "inverse_time_overcurrent" OffOn (enum u8);
+    "inverse_time_overcurrent_characteristic" InverseTimeOvercurrentCharacteristic (enum u8);
+    "inverse_time_overcurrent_by_voltage" OffOn (enum u8);
+    "generator_overfrequency_monitoring" OffOn (enum u8);
+    "generator_underfrequency_monitoring" OffOn (enum u8);
+    "generator_overvoltage_monitoring" OffOn (enum u8);
+    "generator_undervoltage_monitoring" OffOn (enum u8);
+    "mains_frequency_monitoring" OffOn (enum u8);
+    "mains_voltage_monitoring" OffOn (enum u8);
+    "phase_shift_monitoring" OffOn (enum u8);
+    "phase_shift_monitoring_phases" PhaseShiftMonitoringPhases (enum u8);
+    "reactive_power_monitoring" OffOn (enum u8);
+    "earth_fault_monitoring" OffOn (enum u8);
+    "digital_inputs_1_to_4_delay" InputDelay (enum u16);
+    "digital_inputs_1_to_4_fault_class" FaultClass (enum u16);
+    "digital_inputs_5_to_8_delay" InputDelay (enum u16);
+    "digital_inputs_5_to_8_fault_class" FaultClass (enum u16);
+    "digital_inputs_9_to_12_delay" InputDelay (enum u16);
+    "digital_inputs_9_to_12_fault_class" FaultClass (enum u16);
+    "analog_output_1_source" AnalogSource (enum u16);
+    "analog_output_1_current_range" CurrentRange (enum u8);
+    "analog_output_2_source" AnalogSource (enum u16);
+    "analog_output_2_current_range" CurrentRange (enum u8);
+    "relay_1_event_1" RelayEvent (enum u8);
+    "relay_1_event_2" RelayEvent (enum u8);
+    "relay_1_event_3" RelayEvent (enum u8);
+    "relay_2_event_1" RelayEvent (enum u8);
+    "relay_2_event_2" RelayEvent (enum u8);
+    "relay_2_event_3" RelayEvent (enum u8);
+    "relay_3_event_1" RelayEvent (enum u8);
+    "relay_3_event_2" RelayEvent (enum u8);
+    "relay_3_event_3" RelayEvent (enum u8);
+    "relay_4_event_1" RelayEvent (enum u8);
+    "relay_4_event_2" RelayEvent (enum u8);
+    "relay_4_event_3" RelayEvent (enum u8);
+    "relay_5_event_1" RelayEvent (enum u8);
+    "relay_5_event_2" RelayEvent (enum u8);
+    "relay_5_event_3" RelayEvent (enum u8);
+    "relay_6_event_1" RelayEvent (enum u8);
+    "relay_6_event_2" RelayEvent (enum u8);
+    "relay_6_event_3" RelayEvent (enum u8);
+    "relay_7_event_1" RelayEvent (enum u8);
+    "relay_7_event_2" RelayEvent (enum u8);
+    "relay_7_event_3" RelayEvent (enum u8);
+    "automatic_idle_control" OffOn (enum u8);
+    "shutdown" OffOn (enum u8);
 } }
 
-table! { words words {
-    "generator_active_power" GeneratorActivePower (alone);
-    "present_active_power_setpoint" PresentActivePowerSetpoint (alone);
-    "generator_cos_phi" GeneratorCosPhi (alone);
-    "operating_hours" OperatingHours (alone);
-    "generator_active_energy" GeneratorActiveEnergy (alone);
-    "generator_power_setpoint_1" GeneratorPowerSetpoint1 (alone);
-    "generator_power_setpoint_2" GeneratorPowerSetpoint2 (alone);
-    "cos_phi_controller_setpoint" CosPhiControllerSetpoint (alone);
-    "reverse_power_threshold" ReversePowerThreshold (alone);
-    "analog_output_1_value_at_0_percent" AnalogOutput1ValueAt0Percent (alone);
-    "analog_output_1_value_at_100_percent" AnalogOutput1ValueAt100Percent (alone);
-    "analog_output_2_value_at_0_percent" AnalogOutput2ValueAt0Percent (alone);
-    "analog_output_2_value_at_100_percent" AnalogOutput2ValueAt100Percent (alone);
+table! { encode_plain encode_plain {
+    "password_level_2" PasswordLevel2 ();
+    "generator_vt_secondary_100v" GeneratorVtSecondary100v ();
+    "generator_vt_secondary_400v" GeneratorVtSecondary400v ();
+    "generator_vt_primary" GeneratorVtPrimary ();
+    "busbar_vt_secondary_100v" BusbarVtSecondary100v ();
+    "busbar_vt_secondary_400v" BusbarVtSecondary400v ();
+    "busbar_vt_primary" BusbarVtPrimary ();
+    "mains_vt_secondary_100v" MainsVtSecondary100v ();
+    "mains_vt_secondary_400v" MainsVtSecondary400v ();
+    "mains_vt_primary" MainsVtPrimary ();
+    "generator_current_transformer_ratio" GeneratorCurrentTransformerRatio ();
+    "power_measurement_phases" PowerMeasurementPhases ();
+    "generator_rated_power" GeneratorRatedPower ();
+    "generator_rated_current" GeneratorRatedCurrent ();
+    "generator_power_setpoint_1" GeneratorPowerSetpoint1 ();
+    "generator_power_setpoint_2" GeneratorPowerSetpoint2 ();
+    "frequency_controller" FrequencyController ();
+    "voltage_controller" VoltageController ();
+    "cos_phi_controller" CosPhiController ();
+    "active_power_controller" ActivePowerController ();
+    "active_power_controller_ramp" ActivePowerControllerRamp ();
+    "control_by_interface_x1_x5" ControlByInterfaceX1X5 ();
+    "breaker_logic" BreakerLogic ();
+    "generator_breaker_signal_logic" GeneratorBreakerSignalLogic ();
+    "generator_breaker_open_relay_logic" GeneratorBreakerOpenRelayLogic ();
+    "generator_breaker_pick_up_time" GeneratorBreakerPickUpTime ();
+    "synchronisation_time_monitoring" SynchronisationTimeMonitoring ();
+    "synchronisation_time_monitoring_delay" SynchronisationTimeMonitoringDelay ();
+    "dead_bus_start" DeadBusStart ();
+    "dead_bus_start_maximum_time" DeadBusStartMaximumTime ();
+    "generator_breaker_monitoring" GeneratorBreakerMonitoring ();
+    "automatic_breaker_unlocking" AutomaticBreakerUnlocking ();
+    "generator_overload_monitoring" GeneratorOverloadMonitoring ();
+    "generator_reverse_power_monitoring" GeneratorReversePowerMonitoring ();
+    "generator_unbalanced_load_monitoring" GeneratorUnbalancedLoadMonitoring ();
+    "generator_overcurrent_monitoring" GeneratorOvercurrentMonitoring ();
+    "inverse_time_overcurrent" InverseTimeOvercurrent ();
+    "inverse_time_overcurrent_characteristic" InverseTimeOvercurrentCharacteristic ();
+    "inverse_time_overcurrent_by_voltage" InverseTimeOvercurrentByVoltage ();
+    "inverse_time_overcurrent_voltage_knee" InverseTimeOvercurrentVoltageKnee ();
+    "generator_overfrequency_monitoring" GeneratorOverfrequencyMonitoring ();
+    "generator_underfrequency_monitoring" GeneratorUnderfrequencyMonitoring ();
+    "generator_overvoltage_monitoring" GeneratorOvervoltageMonitoring ();
+    "generator_undervoltage_monitoring" GeneratorUndervoltageMonitoring ();
+    "mains_frequency_monitoring" MainsFrequencyMonitoring ();
+    "mains_voltage_monitoring" MainsVoltageMonitoring ();
+    "phase_shift_monitoring" PhaseShiftMonitoring ();
+    "phase_shift_monitoring_phases" PhaseShiftMonitoringPhases ();
+    "phase_shift_threshold_single_phase" PhaseShiftThresholdSinglePhase ();
+    "phase_shift_threshold_three_phase" PhaseShiftThresholdThreePhase ();
+    "reactive_power_monitoring" ReactivePowerMonitoring ();
+    "earth_fault_monitoring" EarthFaultMonitoring ();
+    "digital_inputs_1_to_4_logic" DigitalInputs1To4Logic ();
+    "digital_inputs_1_to_4_engine_delay" DigitalInputs1To4EngineDelay ();
+    "digital_inputs_5_to_8_logic" DigitalInputs5To8Logic ();
+    "digital_inputs_5_to_8_engine_delay" DigitalInputs5To8EngineDelay ();
+    "digital_inputs_9_to_12_logic" DigitalInputs9To12Logic ();
+    "digital_inputs_9_to_12_engine_delay" DigitalInputs9To12EngineDelay ();
+    "analog_output_1_source" AnalogOutput1Source ();
+    "analog_output_1_current_range" AnalogOutput1CurrentRange ();
+    "analog_output_2_source" AnalogOutput2Source ();
+    "analog_output_2_current_range" AnalogOutput2CurrentRange ();
+    "relay_1_event_1" Relay1Event1 ();
+    "relay_1_logic_1" Relay1Logic1 ();
+    "relay_1_event_2" Relay1Event2 ();
+    "relay_1_logic_2" Relay1Logic2 ();
+    "relay_1_event_3" Relay1Event3 ();
+    "relay_1_logic_3" Relay1Logic3 ();
+    "relay_2_event_1" Relay2Event1 ();
+    "relay_2_logic_1" Relay2Logic1 ();
+    "relay_2_event_2" Relay2Event2 ();
+    "relay_2_logic_2" Relay2Logic2 ();
+    "relay_2_event_3" Relay2Event3 ();
+    "relay_2_logic_3" Relay2Logic3 ();
+    "relay_3_event_1" Relay3Event1 ();
+    "relay_3_logic_1" Relay3Logic1 ();
+    "relay_3_event_2" Relay3Event2 ();
+    "relay_3_logic_2" Relay3Logic2 ();
+    "relay_3_event_3" Relay3Event3 ();
+    "relay_3_logic_3" Relay3Logic3 ();
+    "relay_4_event_1" Relay4Event1 ();
+    "relay_4_logic_1" Relay4Logic1 ();
+    "relay_4_event_2" Relay4Event2 ();
+    "relay_4_logic_2" Relay4Logic2 ();
+    "relay_4_event_3" Relay4Event3 ();
+    "relay_4_logic_3" Relay4Logic3 ();
+    "relay_5_event_1" Relay5Event1 ();
+    "relay_5_logic_1" Relay5Logic1 ();
+    "relay_5_event_2" Relay5Event2 ();
+    "relay_5_logic_2" Relay5Logic2 ();
+    "relay_5_event_3" Relay5Event3 ();
+    "relay_5_logic_3" Relay5Logic3 ();
+    "relay_6_event_1" Relay6Event1 ();
+    "relay_6_logic_1" Relay6Logic1 ();
+    "relay_6_event_2" Relay6Event2 ();
+    "relay_6_logic_2" Relay6Logic2 ();
+    "relay_6_event_3" Relay6Event3 ();
+    "relay_6_logic_3" Relay6Logic3 ();
+    "relay_7_event_1" Relay7Event1 ();
+    "relay_7_logic_1" Relay7Logic1 ();
+    "relay_7_event_2" Relay7Event2 ();
+    "relay_7_logic_2" Relay7Logic2 ();
+    "relay_7_event_3" Relay7Event3 ();
+    "relay_7_logic_3" Relay7Logic3 ();
+    "automatic_idle_control" AutomaticIdleControl ();
+    "shutdown" Shutdown ();
+    "engine_monitoring_delay" EngineMonitoringDelay ();
 } }
 
-table! { address address {
-    "telegram_identification" TelegramIdentification (at MUX "mux" WORD "word" NR "nr");
-    "generator_frequency" GeneratorFrequency (at MUX "mux" WORD "word" NR "nr");
-    "generator_active_power" GeneratorActivePower (at MUX "mux" WORD "word" NR "nr");
-    "generator_power_exponent" GeneratorPowerExponent (at MUX "mux" WORD "word" NR "nr");
-    "generator_voltage_exponent" GeneratorVoltageExponent (at MUX "mux" WORD "word" NR "nr");
-    "present_active_power_setpoint" PresentActivePowerSetpoint (at MUX "mux" WORD "word" NR "nr");
-    "active_power_setpoint_factor" ActivePowerSetpointFactor (at MUX "mux" WORD "word" NR "nr");
-    "busbar_voltage_l1_l2" BusbarVoltageL1L2 (at MUX "mux" WORD "word" NR "nr");
-    "mains_voltage_l1_l2" MainsVoltageL1L2 (at MUX "mux" WORD "word" NR "nr");
-    "present_fault_classes" PresentFaultClasses (at MUX "mux" WORD "word" NR "nr");
-    "control_register_2" ControlRegister2 (at MUX "mux" WORD "word" NR "nr");
-    "control_register_1" ControlRegister1 (at MUX "mux" WORD "word" NR "nr");
-    "internal_faults_8" InternalFaults8 (at MUX "mux" WORD "word" NR "nr");
-    "internal_faults_6" InternalFaults6 (at MUX "mux" WORD "word" NR "nr");
-    "generator_voltage_l2_l3" GeneratorVoltageL2L3 (at MUX "mux" WORD "word" NR "nr");
-    "generator_voltage_l3_l1" GeneratorVoltageL3L1 (at MUX "mux" WORD "word" NR "nr");
-    "generator_voltage_l1_n" GeneratorVoltageL1N (at MUX "mux" WORD "word" NR "nr");
-    "generator_voltage_l2_n" GeneratorVoltageL2N (at MUX "mux" WORD "word" NR "nr");
-    "generator_voltage_l3_n" GeneratorVoltageL3N (at MUX "mux" WORD "word" NR "nr");
-    "generator_voltage_l1_l2" GeneratorVoltageL1L2 (at MUX "mux" WORD "word" NR "nr");
-    "generator_current_l1" GeneratorCurrentL1 (at MUX "mux" WORD "word" NR "nr");
-    "generator_current_l2" GeneratorCurrentL2 (at MUX "mux" WORD "word" NR "nr");
-    "generator_current_l3" GeneratorCurrentL3 (at MUX "mux" WORD "word" NR "nr");
-    "generator_cos_phi" GeneratorCosPhi (at MUX "mux" WORD "word" NR "nr");
-    "load_sharing_participants" LoadSharingParticipants (at MUX "mux" WORD "word" NR "nr");
-    "mains_state" MainsState (at MUX "mux" WORD "word" NR "nr");
-    "generator_state" GeneratorState (at MUX "mux" WORD "word" NR "nr");
-    "generator_current_exponent" GeneratorCurrentExponent (at MUX "mux" WORD "word" NR "nr");
-    "busbar_frequency" BusbarFrequency (at MUX "mux" WORD "word" NR "nr");
-    "busbar_state" BusbarState (at MUX "mux" WORD "word" NR "nr");
-    "mains_voltage_l2_l3" MainsVoltageL2L3 (at MUX "mux" WORD "word" NR "nr");
-    "mains_voltage_l3_l1" MainsVoltageL3L1 (at MUX "mux" WORD "word" NR "nr");
-    "mains_voltage_l1_n" MainsVoltageL1N (at MUX "mux" WORD "word" NR "nr");
-    "mains_voltage_l2_n" MainsVoltageL2N (at MUX "mux" WORD "word" NR "nr");
-    "mains_voltage_l3_n" MainsVoltageL3N (at MUX "mux" WORD "word" NR "nr");
-    "mains_frequency" MainsFrequency (at MUX "mux" WORD "word" NR "nr");
-    "mains_voltage_exponent" MainsVoltageExponent (at MUX "mux" WORD "word" NR "nr");
-    "busbar_voltage_exponent" BusbarVoltageExponent (at MUX "mux" WORD "word" NR "nr");
-    "operating_hours" OperatingHours (at MUX "mux" WORD "word" NR "nr");
-    "hours_until_maintenance" HoursUntilMaintenance (at MUX "mux" WORD "word" NR "nr");
-    "engine_start_counter" EngineStartCounter (at MUX "mux" WORD "word" NR "nr");
-    "generator_active_energy" GeneratorActiveEnergy (at MUX "mux" WORD "word" NR "nr");
-    "battery_voltage" BatteryVoltage (at MUX "mux" WORD "word" NR "nr");
-    "internal_faults_1" InternalFaults1 (at MUX "mux" WORD "word" NR "nr");
-    "internal_faults_2" InternalFaults2 (at MUX "mux" WORD "word" NR "nr");
-    "internal_faults_3" InternalFaults3 (at MUX "mux" WORD "word" NR "nr");
-    "internal_faults_4" InternalFaults4 (at MUX "mux" WORD "word" NR "nr");
-    "internal_faults_5" InternalFaults5 (at MUX "mux" WORD "word" NR "nr");
-    "digital_input_faults_1_to_8" DigitalInputFaults1To8 (at MUX "mux" WORD "word" NR "nr");
-    "digital_input_faults_9_to_16" DigitalInputFaults9To16 (at MUX "mux" WORD "word" NR "nr");
-    "internal_faults_7" InternalFaults7 (at MUX "mux" WORD "word" NR "nr");
-    "password_level_2" PasswordLevel2 (at);
-    "generator_frequency_setpoint" GeneratorFrequencySetpoint (at);
-    "generator_rated_frequency" GeneratorRatedFrequency (at);
-    "generator_vt_secondary_100v" GeneratorVtSecondary100v (at);
-    "generator_vt_secondary_400v" GeneratorVtSecondary400v (at);
-    "generator_vt_primary" GeneratorVtPrimary (at);
-    "busbar_vt_secondary_100v" BusbarVtSecondary100v (at);
-    "busbar_vt_secondary_400v" BusbarVtSecondary400v (at);
-    "busbar_vt_primary" BusbarVtPrimary (at);
-    "mains_vt_secondary_100v" MainsVtSecondary100v (at);
-    "mains_vt_secondary_400v" MainsVtSecondary400v (at);
-    "mains_vt_primary" MainsVtPrimary (at);
-    "generator_voltage_factor" GeneratorVoltageFactor (at);
-    "generator_voltage_setpoint_100v" GeneratorVoltageSetpoint100v (at);
-    "generator_voltage_setpoint_400v" GeneratorVoltageSetpoint400v (at);
-    "generator_rated_voltage_100v" GeneratorRatedVoltage100v (at);
-    "generator_rated_voltage_400v" GeneratorRatedVoltage400v (at);
-    "generator_current_transformer_ratio" GeneratorCurrentTransformerRatio (at);
-    "power_measurement_phases" PowerMeasurementPhases (at);
-    "generator_rated_power" GeneratorRatedPower (at);
-    "generator_rated_current" GeneratorRatedCurrent (at);
-    "generator_power_setpoint_1" GeneratorPowerSetpoint1 (at);
-    "generator_power_setpoint_2" GeneratorPowerSetpoint2 (at);
-    "frequency_controller" FrequencyController (at);
-    "frequency_controller_start_frequency" FrequencyControllerStartFrequency (at);
-    "frequency_controller_start_delay" FrequencyControllerStartDelay (at);
-    "frequency_controller_dead_band" FrequencyControllerDeadBand (at);
-    "frequency_controller_pulse_time" FrequencyControllerPulseTime (at);
-    "frequency_controller_gain" FrequencyControllerGain (at);
-    "voltage_controller" VoltageController (at);
-    "voltage_controller_dead_band" VoltageControllerDeadBand (at);
-    "voltage_controller_pulse_time" VoltageControllerPulseTime (at);
-    "voltage_controller_gain" VoltageControllerGain (at);
-    "cos_phi_controller" CosPhiController (at);
-    "cos_phi_controller_setpoint" CosPhiControllerSetpoint (at);
-    "cos_phi_controller_dead_band" CosPhiControllerDeadBand (at);
-    "cos_phi_controller_gain" CosPhiControllerGain (at);
-    "active_power_controller" ActivePowerController (at);
-    "active_power_controller_ramp" ActivePowerControllerRamp (at);
-    "active_power_controller_maximum" ActivePowerControllerMaximum (at);
-    "active_power_controller_minimum" ActivePowerControllerMinimum (at);
-    "active_power_controller_dead_band" ActivePowerControllerDeadBand (at);
-    "active_power_controller_gain" ActivePowerControllerGain (at);
-    "active_power_controller_reduction_factor" ActivePowerControllerReductionFactor (at);
-    "part_load_lead_setpoint" PartLoadLeadSetpoint (at);
-    "part_load_lead_time" PartLoadLeadTime (at);
-    "control_by_interface_x1_x5" ControlByInterfaceX1X5 (at);
-    "breaker_logic" BreakerLogic (at);
-    "load_ramp_maximum_time" LoadRampMaximumTime (at);
-    "generator_breaker_signal_logic" GeneratorBreakerSignalLogic (at);
-    "generator_breaker_open_relay_logic" GeneratorBreakerOpenRelayLogic (at);
-    "synchronisation_frequency_difference_max" SynchronisationFrequencyDifferenceMax (at);
-    "synchronisation_frequency_difference_min" SynchronisationFrequencyDifferenceMin (at);
-    "synchronisation_voltage_difference_max" SynchronisationVoltageDifferenceMax (at);
-    "synchronisation_voltage_difference_min" SynchronisationVoltageDifferenceMin (at);
-    "synchronisation_pulse_time" SynchronisationPulseTime (at);
-    "generator_breaker_pick_up_time" GeneratorBreakerPickUpTime (at);
-    "synchronisation_time_monitoring" SynchronisationTimeMonitoring (at);
-    "synchronisation_time_monitoring_delay" SynchronisationTimeMonitoringDelay (at);
-    "dead_bus_start" DeadBusStart (at);
-    "dead_bus_start_frequency_difference_max" DeadBusStartFrequencyDifferenceMax (at);
-    "dead_bus_start_voltage_difference_max" DeadBusStartVoltageDifferenceMax (at);
-    "dead_bus_start_maximum_time" DeadBusStartMaximumTime (at);
-    "generator_breaker_monitoring" GeneratorBreakerMonitoring (at);
-    "automatic_breaker_unlocking" AutomaticBreakerUnlocking (at);
-    "generator_overload_monitoring" GeneratorOverloadMonitoring (at);
-    "overload_threshold_parallel_operation" OverloadThresholdParallelOperation (at);
-    "overload_delay_parallel_operation" OverloadDelayParallelOperation (at);
-    "overload_threshold_isolated_operation" OverloadThresholdIsolatedOperation (at);
-    "overload_delay_isolated_operation" OverloadDelayIsolatedOperation (at);
-    "generator_reverse_power_monitoring" GeneratorReversePowerMonitoring (at);
-    "reverse_power_threshold" ReversePowerThreshold (at);
-    "reverse_power_delay" ReversePowerDelay (at);
-    "generator_unbalanced_load_monitoring" GeneratorUnbalancedLoadMonitoring (at);
-    "unbalanced_load_threshold" UnbalancedLoadThreshold (at);
-    "unbalanced_load_delay" UnbalancedLoadDelay (at);
-    "generator_overcurrent_monitoring" GeneratorOvercurrentMonitoring (at);
-    "overcurrent_1_threshold" Overcurrent1Threshold (at);
-    "overcurrent_1_delay" Overcurrent1Delay (at);
-    "overcurrent_2_threshold" Overcurrent2Threshold (at);
-    "overcurrent_2_delay" Overcurrent2Delay (at);
-    "inverse_time_overcurrent" InverseTimeOvercurrent (at);
-    "inverse_time_overcurrent_characteristic" InverseTimeOvercurrentCharacteristic (at);
-    "inverse_time_overcurrent_tp" InverseTimeOvercurrentTp (at);
-    "inverse_time_overcurrent_ip" InverseTimeOvercurrentIp (at);
-    "inverse_time_overcurrent_istart" InverseTimeOvercurrentIstart (at);
-    "inverse_time_overcurrent_by_voltage" InverseTimeOvercurrentByVoltage (at);
-    "inverse_time_overcurrent_voltage_knee" InverseTimeOvercurrentVoltageKnee (at);
-    "generator_overfrequency_monitoring" GeneratorOverfrequencyMonitoring (at);
-    "generator_overfrequency_1_threshold" GeneratorOverfrequency1Threshold (at);
-    "generator_overfrequency_1_delay" GeneratorOverfrequency1Delay (at);
-    "generator_overfrequency_2_threshold" GeneratorOverfrequency2Threshold (at);
-    "generator_overfrequency_2_delay" GeneratorOverfrequency2Delay (at);
-    "generator_underfrequency_monitoring" GeneratorUnderfrequencyMonitoring (at);
-    "generator_underfrequency_1_threshold" GeneratorUnderfrequency1Threshold (at);
-    "generator_underfrequency_1_delay" GeneratorUnderfrequency1Delay (at);
-    "generator_underfrequency_2_threshold" GeneratorUnderfrequency2Threshold (at);
-    "generator_underfrequency_2_delay" GeneratorUnderfrequency2Delay (at);
-    "generator_overvoltage_monitoring" GeneratorOvervoltageMonitoring (at);
-    "generator_overvoltage_1_threshold_100v" GeneratorOvervoltage1Threshold100v (at);
-    "generator_overvoltage_1_threshold_400v" GeneratorOvervoltage1Threshold400v (at);
-    "generator_overvoltage_1_delay" GeneratorOvervoltage1Delay (at);
-    "generator_overvoltage_2_threshold_100v" GeneratorOvervoltage2Threshold100v (at);
-    "generator_overvoltage_2_threshold_400v" GeneratorOvervoltage2Threshold400v (at);
-    "generator_overvoltage_2_delay" GeneratorOvervoltage2Delay (at);
-    "generator_undervoltage_monitoring" GeneratorUndervoltageMonitoring (at);
-    "generator_undervoltage_1_threshold_100v" GeneratorUndervoltage1Threshold100v (at);
-    "generator_undervoltage_1_threshold_400v" GeneratorUndervoltage1Threshold400v (at);
-    "generator_undervoltage_1_delay" GeneratorUndervoltage1Delay (at);
-    "generator_undervoltage_2_threshold_100v" GeneratorUndervoltage2Threshold100v (at);
-    "generator_undervoltage_2_threshold_400v" GeneratorUndervoltage2Threshold400v (at);
-    "generator_undervoltage_2_delay" GeneratorUndervoltage2Delay (at);
-    "mains_frequency_monitoring" MainsFrequencyMonitoring (at);
-    "mains_overfrequency_threshold" MainsOverfrequencyThreshold (at);
-    "mains_overfrequency_delay" MainsOverfrequencyDelay (at);
-    "mains_underfrequency_threshold" MainsUnderfrequencyThreshold (at);
-    "mains_underfrequency_delay" MainsUnderfrequencyDelay (at);
-    "mains_voltage_monitoring" MainsVoltageMonitoring (at);
-    "mains_voltage_factor" MainsVoltageFactor (at);
-    "mains_overvoltage_threshold_100v" MainsOvervoltageThreshold100v (at);
-    "mains_overvoltage_threshold_400v" MainsOvervoltageThreshold400v (at);
-    "mains_overvoltage_delay" MainsOvervoltageDelay (at);
-    "mains_undervoltage_threshold_100v" MainsUndervoltageThreshold100v (at);
-    "mains_undervoltage_threshold_400v" MainsUndervoltageThreshold400v (at);
-    "mains_undervoltage_delay" MainsUndervoltageDelay (at);
-    "phase_shift_monitoring" PhaseShiftMonitoring (at);
-    "phase_shift_monitoring_phases" PhaseShiftMonitoringPhases (at);
-    "phase_shift_threshold_single_phase" PhaseShiftThresholdSinglePhase (at);
-    "phase_shift_threshold_three_phase" PhaseShiftThresholdThreePhase (at);
-    "reactive_power_monitoring" ReactivePowerMonitoring (at);
-    "reactive_power_threshold_inductive" ReactivePowerThresholdInductive (at);
-    "reactive_power_delay_inductive" ReactivePowerDelayInductive (at);
-    "reactive_power_threshold_capacitive" ReactivePowerThresholdCapacitive (at);
-    "reactive_power_delay_capacitive" ReactivePowerDelayCapacitive (at);
-    "earth_fault_monitoring" EarthFaultMonitoring (at);
-    "earth_fault_threshold" EarthFaultThreshold (at);
-    "earth_fault_delay" EarthFaultDelay (at);
-    "battery_undervoltage_threshold" BatteryUndervoltageThreshold (at);
-    "battery_undervoltage_delay" BatteryUndervoltageDelay (at);
-    "digital_inputs_1_to_4_logic" DigitalInputs1To4Logic (at);
-    "digital_inputs_1_to_4_delay" DigitalInputs1To4Delay (at);
-    "digital_inputs_1_to_4_engine_delay" DigitalInputs1To4EngineDelay (at);
-    "digital_inputs_1_to_4_fault_class" DigitalInputs1To4FaultClass (at);
-    "digital_inputs_5_to_8_logic" DigitalInputs5To8Logic (at);
-    "digital_inputs_5_to_8_delay" DigitalInputs5To8Delay (at);
-    "digital_inputs_5_to_8_engine_delay" DigitalInputs5To8EngineDelay (at);
-    "digital_inputs_5_to_8_fault_class" DigitalInputs5To8FaultClass (at);
-    "digital_inputs_9_to_12_logic" DigitalInputs9To12Logic (at);
-    "digital_inputs_9_to_12_delay" DigitalInputs9To12Delay (at);
-    "digital_inputs_9_to_12_engine_delay" DigitalInputs9To12EngineDelay (at);
-    "digital_inputs_9_to_12_fault_class" DigitalInputs9To12FaultClass (at);
-    "fault_text_terminal_62" FaultTextTerminal62 (text);
-    "fault_text_terminal_63" FaultTextTerminal63 (text);
-    "fault_text_terminal_64" FaultTextTerminal64 (text);
-    "fault_text_terminal_65" FaultTextTerminal65 (text);
-    "fault_text_terminal_66" FaultTextTerminal66 (text);
-    "fault_text_terminal_67" FaultTextTerminal67 (text);
-    "fault_text_terminal_68" FaultTextTerminal68 (text);
-    "fault_text_terminal_69" FaultTextTerminal69 (text);
-    "fault_text_terminal_70" FaultTextTerminal70 (text);
-    "fault_text_terminal_71" FaultTextTerminal71 (text);
-    "fault_text_terminal_72" FaultTextTerminal72 (text);
-    "fault_text_terminal_73" FaultTextTerminal73 (text);
-    "analog_output_1_source" AnalogOutput1Source (at);
-    "analog_output_1_current_range" AnalogOutput1CurrentRange (at);
-    "analog_output_1_value_at_0_percent" AnalogOutput1ValueAt0Percent (at);
-    "analog_output_1_value_at_100_percent" AnalogOutput1ValueAt100Percent (at);
-    "analog_output_2_source" AnalogOutput2Source (at);
-    "analog_output_2_current_range" AnalogOutput2CurrentRange (at);
-    "analog_output_2_value_at_0_percent" AnalogOutput2ValueAt0Percent (at);
-    "analog_output_2_value_at_100_percent" AnalogOutput2ValueAt100Percent (at);
-    "relay_1_event_1" Relay1Event1 (at);
-    "relay_1_logic_1" Relay1Logic1 (at);
-    "relay_1_event_2" Relay1Event2 (at);
-    "relay_1_logic_2" Relay1Logic2 (at);
-    "relay_1_event_3" Relay1Event3 (at);
-    "relay_1_logic_3" Relay1Logic3 (at);
-    "relay_2_event_1" Relay2Event1 (at);
-    "relay_2_logic_1" Relay2Logic1 (at);
-    "relay_2_event_2" Relay2Event2 (at);
-    "relay_2_logic_2" Relay2Logic2 (at);
-    "relay_2_event_3" Relay2Event3 (at);
-    "relay_2_logic_3" Relay2Logic3 (at);
-    "relay_3_event_1" Relay3Event1 (at);
-    "relay_3_logic_1" Relay3Logic1 (at);
-    "relay_3_event_2" Relay3Event2 (at);
-    "relay_3_logic_2" Relay3Logic2 (at);
-    "relay_3_event_3" Relay3Event3 (at);
-    "relay_3_logic_3" Relay3Logic3 (at);
-    "relay_4_event_1" Relay4Event1 (at);
-    "relay_4_logic_1" Relay4Logic1 (at);
-    "relay_4_event_2" Relay4Event2 (at);
-    "relay_4_logic_2" Relay4Logic2 (at);
-    "relay_4_event_3" Relay4Event3 (at);
-    "relay_4_logic_3" Relay4Logic3 (at);
-    "relay_5_event_1" Relay5Event1 (at);
-    "relay_5_logic_1" Relay5Logic1 (at);
-    "relay_5_event_2" Relay5Event2 (at);
-    "relay_5_logic_2" Relay5Logic2 (at);
-    "relay_5_event_3" Relay5Event3 (at);
-    "relay_5_logic_3" Relay5Logic3 (at);
-    "relay_6_event_1" Relay6Event1 (at);
-    "relay_6_logic_1" Relay6Logic1 (at);
-    "relay_6_event_2" Relay6Event2 (at);
-    "relay_6_logic_2" Relay6Logic2 (at);
-    "relay_6_event_3" Relay6Event3 (at);
-    "relay_6_logic_3" Relay6Logic3 (at);
-    "relay_7_event_1" Relay7Event1 (at);
-    "relay_7_logic_1" Relay7Logic1 (at);
-    "relay_7_event_2" Relay7Event2 (at);
-    "relay_7_logic_2" Relay7Logic2 (at);
-    "relay_7_event_3" Relay7Event3 (at);
-    "relay_7_logic_3" Relay7Logic3 (at);
-    "automatic_idle_control" AutomaticIdleControl (at);
-    "shutdown" Shutdown (at);
-    "engine_monitoring_delay" EngineMonitoringDelay (at);
-    "monitoring_start_frequency" MonitoringStartFrequency (at);
-} }
-
-table! { symbol symbol {
-    "generator_frequency" GeneratorFrequency (alone);
-    "generator_active_power" GeneratorActivePower (alone);
-    "present_active_power_setpoint" PresentActivePowerSetpoint (alone);
-    "busbar_voltage_l1_l2" BusbarVoltageL1L2 (alone);
-    "mains_voltage_l1_l2" MainsVoltageL1L2 (alone);
-    "generator_voltage_l2_l3" GeneratorVoltageL2L3 (alone);
-    "generator_voltage_l3_l1" GeneratorVoltageL3L1 (alone);
-    "generator_voltage_l1_n" GeneratorVoltageL1N (alone);
-    "generator_voltage_l2_n" GeneratorVoltageL2N (alone);
-    "generator_voltage_l3_n" GeneratorVoltageL3N (alone);
-    "generator_voltage_l1_l2" GeneratorVoltageL1L2 (alone);
-    "generator_current_l1" GeneratorCurrentL1 (alone);
-    "generator_current_l2" GeneratorCurrentL2 (alone);
-    "generator_current_l3" GeneratorCurrentL3 (alone);
-    "busbar_frequency" BusbarFrequency (alone);
-    "mains_voltage_l2_l3" MainsVoltageL2L3 (alone);
-    "mains_voltage_l3_l1" MainsVoltageL3L1 (alone);
-    "mains_voltage_l1_n" MainsVoltageL1N (alone);
-    "mains_voltage_l2_n" MainsVoltageL2N (alone);
-    "mains_voltage_l3_n" MainsVoltageL3N (alone);
-    "mains_frequency" MainsFrequency (alone);
-    "operating_hours" OperatingHours (alone);
-    "hours_until_maintenance" HoursUntilMaintenance (alone);
-    "generator_active_energy" GeneratorActiveEnergy (alone);
-    "battery_voltage" BatteryVoltage (alone);
-    "generator_frequency_setpoint" GeneratorFrequencySetpoint (alone);
-    "generator_rated_frequency" GeneratorRatedFrequency (alone);
-    "generator_vt_secondary_100v" GeneratorVtSecondary100v (alone);
-    "generator_vt_secondary_400v" GeneratorVtSecondary400v (alone);
-    "generator_vt_primary" GeneratorVtPrimary (alone);
-    "busbar_vt_secondary_100v" BusbarVtSecondary100v (alone);
-    "busbar_vt_secondary_400v" BusbarVtSecondary400v (alone);
-    "busbar_vt_primary" BusbarVtPrimary (alone);
-    "mains_vt_secondary_100v" MainsVtSecondary100v (alone);
-    "mains_vt_secondary_400v" MainsVtSecondary400v (alone);
-    "mains_vt_primary" MainsVtPrimary (alone);
-    "generator_voltage_setpoint_100v" GeneratorVoltageSetpoint100v (alone);
-    "generator_voltage_setpoint_400v" GeneratorVoltageSetpoint400v (alone);
-    "generator_rated_voltage_100v" GeneratorRatedVoltage100v (alone);
-    "generator_rated_voltage_400v" GeneratorRatedVoltage400v (alone);
-    "generator_current_transformer_ratio" GeneratorCurrentTransformerRatio (alone);
-    "generator_rated_power" GeneratorRatedPower (alone);
-    "generator_rated_current" GeneratorRatedCurrent (alone);
-    "generator_power_setpoint_1" GeneratorPowerSetpoint1 (alone);
-    "generator_power_setpoint_2" GeneratorPowerSetpoint2 (alone);
-    "frequency_controller_start_frequency" FrequencyControllerStartFrequency (alone);
-    "frequency_controller_start_delay" FrequencyControllerStartDelay (alone);
-    "frequency_controller_dead_band" FrequencyControllerDeadBand (alone);
-    "frequency_controller_pulse_time" FrequencyControllerPulseTime (alone);
-    "voltage_controller_dead_band" VoltageControllerDeadBand (alone);
-    "voltage_controller_pulse_time" VoltageControllerPulseTime (alone);
-    "cos_phi_controller_dead_band" CosPhiControllerDeadBand (alone);
-    "active_power_controller_ramp" ActivePowerControllerRamp (alone);
-    "active_power_controller_maximum" ActivePowerControllerMaximum (alone);
-    "active_power_controller_minimum" ActivePowerControllerMinimum (alone);
-    "active_power_controller_dead_band" ActivePowerControllerDeadBand (alone);
-    "part_load_lead_setpoint" PartLoadLeadSetpoint (alone);
-    "part_load_lead_time" PartLoadLeadTime (alone);
-    "load_ramp_maximum_time" LoadRampMaximumTime (alone);
-    "synchronisation_frequency_difference_max" SynchronisationFrequencyDifferenceMax (alone);
-    "synchronisation_frequency_difference_min" SynchronisationFrequencyDifferenceMin (alone);
-    "synchronisation_voltage_difference_max" SynchronisationVoltageDifferenceMax (alone);
-    "synchronisation_voltage_difference_min" SynchronisationVoltageDifferenceMin (alone);
-    "synchronisation_pulse_time" SynchronisationPulseTime (alone);
-    "generator_breaker_pick_up_time" GeneratorBreakerPickUpTime (alone);
-    "synchronisation_time_monitoring_delay" SynchronisationTimeMonitoringDelay (alone);
-    "dead_bus_start_frequency_difference_max" DeadBusStartFrequencyDifferenceMax (alone);
-    "dead_bus_start_voltage_difference_max" DeadBusStartVoltageDifferenceMax (alone);
-    "dead_bus_start_maximum_time" DeadBusStartMaximumTime (alone);
-    "overload_threshold_parallel_operation" OverloadThresholdParallelOperation (alone);
-    "overload_delay_parallel_operation" OverloadDelayParallelOperation (alone);
-    "overload_threshold_isolated_operation" OverloadThresholdIsolatedOperation (alone);
-    "overload_delay_isolated_operation" OverloadDelayIsolatedOperation (alone);
-    "reverse_power_threshold" ReversePowerThreshold (alone);
-    "reverse_power_delay" ReversePowerDelay (alone);
-    "unbalanced_load_threshold" UnbalancedLoadThreshold (alone);
-    "unbalanced_load_delay" UnbalancedLoadDelay (alone);
-    "overcurrent_1_threshold" Overcurrent1Threshold (alone);
-    "overcurrent_1_delay" Overcurrent1Delay (alone);
-    "overcurrent_2_threshold" Overcurrent2Threshold (alone);
-    "overcurrent_2_delay" Overcurrent2Delay (alone);
-    "inverse_time_overcurrent_tp" InverseTimeOvercurrentTp (alone);
-    "inverse_time_overcurrent_voltage_knee" InverseTimeOvercurrentVoltageKnee (alone);
-    "generator_overfrequency_1_threshold" GeneratorOverfrequency1Threshold (alone);
-    "generator_overfrequency_1_delay" GeneratorOverfrequency1Delay (alone);
-    "generator_overfrequency_2_threshold" GeneratorOverfrequency2Threshold (alone);
-    "generator_overfrequency_2_delay" GeneratorOverfrequency2Delay (alone);
-    "generator_underfrequency_1_threshold" GeneratorUnderfrequency1Threshold (alone);
-    "generator_underfrequency_1_delay" GeneratorUnderfrequency1Delay (alone);
-    "generator_underfrequency_2_threshold" GeneratorUnderfrequency2Threshold (alone);
-    "generator_underfrequency_2_delay" GeneratorUnderfrequency2Delay (alone);
-    "generator_overvoltage_1_threshold_100v" GeneratorOvervoltage1Threshold100v (alone);
-    "generator_overvoltage_1_threshold_400v" GeneratorOvervoltage1Threshold400v (alone);
-    "generator_overvoltage_1_delay" GeneratorOvervoltage1Delay (alone);
-    "generator_overvoltage_2_threshold_100v" GeneratorOvervoltage2Threshold100v (alone);
-    "generator_overvoltage_2_threshold_400v" GeneratorOvervoltage2Threshold400v (alone);
-    "generator_overvoltage_2_delay" GeneratorOvervoltage2Delay (alone);
-    "generator_undervoltage_1_threshold_100v" GeneratorUndervoltage1Threshold100v (alone);
-    "generator_undervoltage_1_threshold_400v" GeneratorUndervoltage1Threshold400v (alone);
-    "generator_undervoltage_1_delay" GeneratorUndervoltage1Delay (alone);
-    "generator_undervoltage_2_threshold_100v" GeneratorUndervoltage2Threshold100v (alone);
-    "generator_undervoltage_2_threshold_400v" GeneratorUndervoltage2Threshold400v (alone);
-    "generator_undervoltage_2_delay" GeneratorUndervoltage2Delay (alone);
-    "mains_overfrequency_threshold" MainsOverfrequencyThreshold (alone);
-    "mains_overfrequency_delay" MainsOverfrequencyDelay (alone);
-    "mains_underfrequency_threshold" MainsUnderfrequencyThreshold (alone);
-    "mains_underfrequency_delay" MainsUnderfrequencyDelay (alone);
-    "mains_overvoltage_threshold_100v" MainsOvervoltageThreshold100v (alone);
-    "mains_overvoltage_threshold_400v" MainsOvervoltageThreshold400v (alone);
-    "mains_overvoltage_delay" MainsOvervoltageDelay (alone);
-    "mains_undervoltage_threshold_100v" MainsUndervoltageThreshold100v (alone);
-    "mains_undervoltage_threshold_400v" MainsUndervoltageThreshold400v (alone);
-    "mains_undervoltage_delay" MainsUndervoltageDelay (alone);
-    "phase_shift_threshold_single_phase" PhaseShiftThresholdSinglePhase (alone);
-    "phase_shift_threshold_three_phase" PhaseShiftThresholdThreePhase (alone);
-    "reactive_power_threshold_inductive" ReactivePowerThresholdInductive (alone);
-    "reactive_power_delay_inductive" ReactivePowerDelayInductive (alone);
-    "reactive_power_threshold_capacitive" ReactivePowerThresholdCapacitive (alone);
-    "reactive_power_delay_capacitive" ReactivePowerDelayCapacitive (alone);
-    "earth_fault_threshold" EarthFaultThreshold (alone);
-    "earth_fault_delay" EarthFaultDelay (alone);
-    "battery_undervoltage_threshold" BatteryUndervoltageThreshold (alone);
-    "battery_undervoltage_delay" BatteryUndervoltageDelay (alone);
-    "engine_monitoring_delay" EngineMonitoringDelay (alone);
-    "monitoring_start_frequency" MonitoringStartFrequency (alone);
-} }
-
-table! { place place {
-    "telegram_identification" TelegramIdentification (alone);
-    "generator_frequency" GeneratorFrequency (alone);
-    "generator_active_power" GeneratorActivePower (alone);
-    "generator_power_exponent" GeneratorPowerExponent (alone);
-    "generator_voltage_exponent" GeneratorVoltageExponent (alone);
-    "present_active_power_setpoint" PresentActivePowerSetpoint (alone);
-    "active_power_setpoint_factor" ActivePowerSetpointFactor (alone);
-    "busbar_voltage_l1_l2" BusbarVoltageL1L2 (alone);
-    "mains_voltage_l1_l2" MainsVoltageL1L2 (alone);
-    "present_fault_classes" PresentFaultClasses (alone);
-    "control_register_2" ControlRegister2 (alone);
-    "control_register_1" ControlRegister1 (alone);
-    "internal_faults_8" InternalFaults8 (alone);
-    "internal_faults_6" InternalFaults6 (alone);
-    "generator_voltage_l2_l3" GeneratorVoltageL2L3 (alone);
-    "generator_voltage_l3_l1" GeneratorVoltageL3L1 (alone);
-    "generator_voltage_l1_n" GeneratorVoltageL1N (alone);
-    "generator_voltage_l2_n" GeneratorVoltageL2N (alone);
-    "generator_voltage_l3_n" GeneratorVoltageL3N (alone);
-    "generator_voltage_l1_l2" GeneratorVoltageL1L2 (alone);
-    "generator_current_l1" GeneratorCurrentL1 (alone);
-    "generator_current_l2" GeneratorCurrentL2 (alone);
-    "generator_current_l3" GeneratorCurrentL3 (alone);
-    "generator_cos_phi" GeneratorCosPhi (alone);
-    "load_sharing_participants" LoadSharingParticipants (alone);
-    "mains_state" MainsState (alone);
-    "generator_state" GeneratorState (alone);
-    "generator_current_exponent" GeneratorCurrentExponent (alone);
-    "busbar_frequency" BusbarFrequency (alone);
-    "busbar_state" BusbarState (alone);
-    "mains_voltage_l2_l3" MainsVoltageL2L3 (alone);
-    "mains_voltage_l3_l1" MainsVoltageL3L1 (alone);
-    "mains_voltage_l1_n" MainsVoltageL1N (alone);
-    "mains_voltage_l2_n" MainsVoltageL2N (alone);
-    "mains_voltage_l3_n" MainsVoltageL3N (alone);
-    "mains_frequency" MainsFrequency (alone);
-    "mains_voltage_exponent" MainsVoltageExponent (alone);
-    "busbar_voltage_exponent" BusbarVoltageExponent (alone);
-    "operating_hours" OperatingHours (alone);
-    "hours_until_maintenance" HoursUntilMaintenance (alone);
-    "engine_start_counter" EngineStartCounter (alone);
-    "generator_active_energy" GeneratorActiveEnergy (alone);
-    "battery_voltage" BatteryVoltage (alone);
-    "internal_faults_1" InternalFaults1 (alone);
-    "internal_faults_2" InternalFaults2 (alone);
-    "internal_faults_3" InternalFaults3 (alone);
-    "internal_faults_4" InternalFaults4 (alone);
-    "internal_faults_5" InternalFaults5 (alone);
-    "digital_input_faults_1_to_8" DigitalInputFaults1To8 (alone);
-    "digital_input_faults_9_to_16" DigitalInputFaults9To16 (alone);
-    "internal_faults_7" InternalFaults7 (alone);
-    "fault_text_terminal_62" FaultTextTerminal62 (alone);
-    "fault_text_terminal_63" FaultTextTerminal63 (alone);
-    "fault_text_terminal_64" FaultTextTerminal64 (alone);
-    "fault_text_terminal_65" FaultTextTerminal65 (alone);
-    "fault_text_terminal_66" FaultTextTerminal66 (alone);
-    "fault_text_terminal_67" FaultTextTerminal67 (alone);
-    "fault_text_terminal_68" FaultTextTerminal68 (alone);
-    "fault_text_terminal_69" FaultTextTerminal69 (alone);
-    "fault_text_terminal_70" FaultTextTerminal70 (alone);
-    "fault_text_terminal_71" FaultTextTerminal71 (alone);
-    "fault_text_terminal_72" FaultTextTerminal72 (alone);
-    "fault_text_terminal_73" FaultTextTerminal73 (alone);
-} }
-
-table! { fixed fixed {
-    "relay_1_event_1" Relay1Event1 (alone);
-    "relay_1_logic_1" Relay1Logic1 (alone);
-    "relay_1_event_2" Relay1Event2 (alone);
-    "relay_1_logic_2" Relay1Logic2 (alone);
-    "relay_1_event_3" Relay1Event3 (alone);
-    "relay_1_logic_3" Relay1Logic3 (alone);
-    "relay_2_event_1" Relay2Event1 (alone);
-    "relay_2_logic_1" Relay2Logic1 (alone);
-    "relay_2_event_2" Relay2Event2 (alone);
-    "relay_2_logic_2" Relay2Logic2 (alone);
-    "relay_2_event_3" Relay2Event3 (alone);
-    "relay_2_logic_3" Relay2Logic3 (alone);
-    "relay_3_event_1" Relay3Event1 (alone);
-    "relay_3_logic_1" Relay3Logic1 (alone);
-    "relay_3_event_2" Relay3Event2 (alone);
-    "relay_3_logic_2" Relay3Logic2 (alone);
-    "relay_3_event_3" Relay3Event3 (alone);
-    "relay_3_logic_3" Relay3Logic3 (alone);
-    "relay_4_event_1" Relay4Event1 (alone);
-    "relay_4_logic_1" Relay4Logic1 (alone);
-    "relay_4_event_2" Relay4Event2 (alone);
-    "relay_4_logic_2" Relay4Logic2 (alone);
-    "relay_4_event_3" Relay4Event3 (alone);
-    "relay_4_logic_3" Relay4Logic3 (alone);
-    "relay_5_event_1" Relay5Event1 (alone);
-    "relay_5_logic_1" Relay5Logic1 (alone);
-    "relay_5_event_2" Relay5Event2 (alone);
-    "relay_5_logic_2" Relay5Logic2 (alone);
-    "relay_5_event_3" Relay5Event3 (alone);
-    "relay_5_logic_3" Relay5Logic3 (alone);
-    "relay_6_event_1" Relay6Event1 (alone);
-    "relay_6_logic_1" Relay6Logic1 (alone);
-    "relay_6_event_2" Relay6Event2 (alone);
-    "relay_6_logic_2" Relay6Logic2 (alone);
-    "relay_6_event_3" Relay6Event3 (alone);
-    "relay_6_logic_3" Relay6Logic3 (alone);
-    "relay_7_event_1" Relay7Event1 (alone);
-    "relay_7_logic_1" Relay7Logic1 (alone);
-    "relay_7_event_2" Relay7Event2 (alone);
-    "relay_7_logic_2" Relay7Logic2 (alone);
-    "relay_7_event_3" Relay7Event3 (alone);
-    "relay_7_logic_3" Relay7Logic3 (alone);
-} }
-
-table! { text_decode text_decode {
-    "fault_text_terminal_62" FaultTextTerminal62 (sizes 16 8);
-    "fault_text_terminal_63" FaultTextTerminal63 (sizes 16 8);
-    "fault_text_terminal_64" FaultTextTerminal64 (sizes 16 8);
-    "fault_text_terminal_65" FaultTextTerminal65 (sizes 16 8);
-    "fault_text_terminal_66" FaultTextTerminal66 (sizes 16 8);
-    "fault_text_terminal_67" FaultTextTerminal67 (sizes 16 8);
-    "fault_text_terminal_68" FaultTextTerminal68 (sizes 16 8);
-    "fault_text_terminal_69" FaultTextTerminal69 (sizes 16 8);
-    "fault_text_terminal_70" FaultTextTerminal70 (sizes 16 8);
-    "fault_text_terminal_71" FaultTextTerminal71 (sizes 16 8);
-    "fault_text_terminal_72" FaultTextTerminal72 (sizes 16 8);
-    "fault_text_terminal_73" FaultTextTerminal73 (sizes 16 8);
-} }
-
-table! { text_encode text_encode {
-    "fault_text_terminal_62" FaultTextTerminal62 (sizes 16 8);
-    "fault_text_terminal_63" FaultTextTerminal63 (sizes 16 8);
-    "fault_text_terminal_64" FaultTextTerminal64 (sizes 16 8);
-    "fault_text_terminal_65" FaultTextTerminal65 (sizes 16 8);
-    "fault_text_terminal_66" FaultTextTerminal66 (sizes 16 8);
-    "fault_text_terminal_67" FaultTextTerminal67 (sizes 16 8);
-    "fault_text_terminal_68" FaultTextTerminal68 (sizes 16 8);
-    "fault_text_terminal_69" FaultTextTerminal69 (sizes 16 8);
-    "fault_text_terminal_70" FaultTextTerminal70 (sizes 16 8);
-    "fault_text_terminal_71" FaultTextTerminal71 (sizes 16 8);
-    "fault_text_terminal_72" FaultTextTerminal72 (sizes 16 8);
-    "fault_text_terminal_73" FaultTextTerminal73 (sizes 16 8);
-} }
-
-table! { digits digits {
-    "digital_inputs_1_to_4_delay" DigitalInputs1To4Delay (digits 4 u16);
-    "digital_inputs_1_to_4_fault_class" DigitalInputs1To4FaultClass (digits 4 u16);
-    "digital_inputs_5_to_8_delay" DigitalInputs5To8Delay (digits 4 u16);
-    "digital_inputs_5_to_8_fault_class" DigitalInputs5To8FaultClass (digits 4 u16);
-    "digital_inputs_9_to_12_delay" DigitalInputs9To12Delay (digits 4 u16);
-    "digital_inputs_9_to_12_fault_class" DigitalInputs9To12FaultClass (digits 4 u16);
-} }
-
-table! { digits_encode digits_encode {
-    "digital_inputs_1_to_4_delay" DigitalInputs1To4Delay (digits 4 u16);
-    "digital_inputs_1_to_4_fault_class" DigitalInputs1To4FaultClass (digits 4 u16);
-    "digital_inputs_5_to_8_delay" DigitalInputs5To8Delay (digits 4 u16);
-    "digital_inputs_5_to_8_fault_class" DigitalInputs5To8FaultClass (digits 4 u16);
-    "digital_inputs_9_to_12_delay" DigitalInputs9To12Delay (digits 4 u16);
-    "digital_inputs_9_to_12_fault_class" DigitalInputs9To12FaultClass (digits 4 u16);
-} }
-
-table! { can_telegram can_telegram {
-    "telegram_identification" TelegramIdentification (frames);
-    "generator_frequency" GeneratorFrequency (frames);
-    "generator_active_power" GeneratorActivePower (frames);
-    "generator_power_exponent" GeneratorPowerExponent (frames);
-    "generator_voltage_exponent" GeneratorVoltageExponent (frames);
-    "present_active_power_setpoint" PresentActivePowerSetpoint (frames);
-    "active_power_setpoint_factor" ActivePowerSetpointFactor (frames);
-    "busbar_voltage_l1_l2" BusbarVoltageL1L2 (frames);
-    "mains_voltage_l1_l2" MainsVoltageL1L2 (frames);
-    "present_fault_classes" PresentFaultClasses (frames);
-    "control_register_2" ControlRegister2 (frames);
-    "control_register_1" ControlRegister1 (frames);
-    "internal_faults_8" InternalFaults8 (frames);
-    "internal_faults_6" InternalFaults6 (frames);
-    "generator_voltage_l2_l3" GeneratorVoltageL2L3 (frames);
-    "generator_voltage_l3_l1" GeneratorVoltageL3L1 (frames);
-    "generator_voltage_l1_n" GeneratorVoltageL1N (frames);
-    "generator_voltage_l2_n" GeneratorVoltageL2N (frames);
-    "generator_voltage_l3_n" GeneratorVoltageL3N (frames);
-    "generator_voltage_l1_l2" GeneratorVoltageL1L2 (frames);
-    "generator_current_l1" GeneratorCurrentL1 (frames);
-    "generator_current_l2" GeneratorCurrentL2 (frames);
-    "generator_current_l3" GeneratorCurrentL3 (frames);
-    "generator_cos_phi" GeneratorCosPhi (frames);
-    "load_sharing_participants" LoadSharingParticipants (frames);
-    "mains_state" MainsState (frames);
-    "generator_state" GeneratorState (frames);
-    "generator_current_exponent" GeneratorCurrentExponent (frames);
-    "busbar_frequency" BusbarFrequency (frames);
-    "busbar_state" BusbarState (frames);
-    "mains_voltage_l2_l3" MainsVoltageL2L3 (frames);
-    "mains_voltage_l3_l1" MainsVoltageL3L1 (frames);
-    "mains_voltage_l1_n" MainsVoltageL1N (frames);
-    "mains_voltage_l2_n" MainsVoltageL2N (frames);
-    "mains_voltage_l3_n" MainsVoltageL3N (frames);
-    "mains_frequency" MainsFrequency (frames);
-    "mains_voltage_exponent" MainsVoltageExponent (frames);
-    "busbar_voltage_exponent" BusbarVoltageExponent (frames);
-    "operating_hours" OperatingHours (frames);
-    "hours_until_maintenance" HoursUntilMaintenance (frames);
-    "engine_start_counter" EngineStartCounter (frames);
-    "generator_active_energy" GeneratorActiveEnergy (frames);
-    "battery_voltage" BatteryVoltage (frames);
-    "internal_faults_1" InternalFaults1 (frames);
-    "internal_faults_2" InternalFaults2 (frames);
-    "internal_faults_3" InternalFaults3 (frames);
-    "internal_faults_4" InternalFaults4 (frames);
-    "internal_faults_5" InternalFaults5 (frames);
-    "digital_input_faults_1_to_8" DigitalInputFaults1To8 (frames);
-    "digital_input_faults_9_to_16" DigitalInputFaults9To16 (frames);
-    "internal_faults_7" InternalFaults7 (frames);
+table! { check check {
+    "password_level_2" PasswordLevel2 ();
+    "generator_frequency_setpoint" GeneratorFrequencySetpoint ();
+    "generator_rated_frequency" GeneratorRatedFrequency ();
+    "generator_vt_secondary_100v" GeneratorVtSecondary100v ();
+    "generator_vt_secondary_400v" GeneratorVtSecondary400v ();
+    "generator_vt_primary" GeneratorVtPrimary ();
+    "busbar_vt_secondary_100v" BusbarVtSecondary100v ();
+    "busbar_vt_secondary_400v" BusbarVtSecondary400v ();
+    "busbar_vt_primary" BusbarVtPrimary ();
+    "mains_vt_secondary_100v" MainsVtSecondary100v ();
+    "mains_vt_secondary_400v" MainsVtSecondary400v ();
+    "mains_vt_primary" MainsVtPrimary ();
+    "generator_voltage_setpoint_100v" GeneratorVoltageSetpoint100v (GeneratorVoltageSetpoint100v:
+        generator_voltage_factor "generator_voltage_factor");
+    "generator_voltage_setpoint_400v" GeneratorVoltageSetpoint400v (GeneratorVoltageSetpoint400v:
+        generator_voltage_factor "generator_voltage_factor");
+    "generator_rated_voltage_100v" GeneratorRatedVoltage100v (GeneratorRatedVoltage100v:
+        generator_voltage_factor "generator_voltage_factor");
+    "generator_rated_voltage_400v" GeneratorRatedVoltage400v (GeneratorRatedVoltage400v:
+        generator_voltage_factor "generator_voltage_factor");
+    "generator_current_transformer_ratio" GeneratorCurrentTransformerRatio ();
+    "power_measurement_phases" PowerMeasurementPhases ();
+    "generator_rated_power" GeneratorRatedPower ();
+    "generator_rated_current" GeneratorRatedCurrent ();
+    "generator_power_setpoint_1" GeneratorPowerSetpoint1 ();
+    "generator_power_setpoint_2" GeneratorPowerSetpoint2 ();
+    "frequency_controller" FrequencyController ();
+    "frequency_controller_start_frequency" FrequencyControllerStartFrequency ();
+    "frequency_controller_start_delay" FrequencyControllerStartDelay ();
+    "frequency_controller_dead_band" FrequencyControllerDeadBand ();
+    "frequency_controller_pulse_time" FrequencyControllerPulseTime ();
+    "frequency_controller_gain" FrequencyControllerGain ();
+    "voltage_controller" VoltageController ();
+    "voltage_controller_dead_band" VoltageControllerDeadBand ();
+    "voltage_controller_pulse_time" VoltageControllerPulseTime ();
+    "voltage_controller_gain" VoltageControllerGain ();
+    "cos_phi_controller" CosPhiController ();
+    "cos_phi_controller_setpoint" CosPhiControllerSetpoint ();
+    "cos_phi_controller_dead_band" CosPhiControllerDeadBand ();
+    "cos_phi_controller_gain" CosPhiControllerGain ();
+    "active_power_controller" ActivePowerController ();
+    "active_power_controller_ramp" ActivePowerControllerRamp ();
+    "active_power_controller_maximum" ActivePowerControllerMaximum ();
+    "active_power_controller_minimum" ActivePowerControllerMinimum ();
+    "active_power_controller_dead_band" ActivePowerControllerDeadBand ();
+    "active_power_controller_gain" ActivePowerControllerGain ();
+    "active_power_controller_reduction_factor" ActivePowerControllerReductionFactor ();
+    "part_load_lead_setpoint" PartLoadLeadSetpoint ();
+    "part_load_lead_time" PartLoadLeadTime ();
+    "control_by_interface_x1_x5" ControlByInterfaceX1X5 ();
+    "breaker_logic" BreakerLogic ();
+    "load_ramp_maximum_time" LoadRampMaximumTime ();
+    "generator_breaker_signal_logic" GeneratorBreakerSignalLogic ();
+    "generator_breaker_open_relay_logic" GeneratorBreakerOpenRelayLogic ();
+    "synchronisation_frequency_difference_max" SynchronisationFrequencyDifferenceMax ();
+    "synchronisation_frequency_difference_min" SynchronisationFrequencyDifferenceMin ();
+    "synchronisation_voltage_difference_max" SynchronisationVoltageDifferenceMax ();
+    "synchronisation_voltage_difference_min" SynchronisationVoltageDifferenceMin ();
+    "synchronisation_pulse_time" SynchronisationPulseTime ();
+    "generator_breaker_pick_up_time" GeneratorBreakerPickUpTime ();
+    "synchronisation_time_monitoring" SynchronisationTimeMonitoring ();
+    "synchronisation_time_monitoring_delay" SynchronisationTimeMonitoringDelay ();
+    "dead_bus_start" DeadBusStart ();
+    "dead_bus_start_frequency_difference_max" DeadBusStartFrequencyDifferenceMax ();
+    "dead_bus_start_voltage_difference_max" DeadBusStartVoltageDifferenceMax ();
+    "dead_bus_start_maximum_time" DeadBusStartMaximumTime ();
+    "generator_breaker_monitoring" GeneratorBreakerMonitoring ();
+    "automatic_breaker_unlocking" AutomaticBreakerUnlocking ();
+    "generator_overload_monitoring" GeneratorOverloadMonitoring ();
+    "overload_threshold_parallel_operation" OverloadThresholdParallelOperation ();
+    "overload_delay_parallel_operation" OverloadDelayParallelOperation ();
+    "overload_threshold_isolated_operation" OverloadThresholdIsolatedOperation ();
+    "overload_delay_isolated_operation" OverloadDelayIsolatedOperation ();
+    "generator_reverse_power_monitoring" GeneratorReversePowerMonitoring ();
+    "reverse_power_threshold" ReversePowerThreshold ();
+    "reverse_power_delay" ReversePowerDelay ();
+    "generator_unbalanced_load_monitoring" GeneratorUnbalancedLoadMonitoring ();
+    "unbalanced_load_threshold" UnbalancedLoadThreshold ();
+    "unbalanced_load_delay" UnbalancedLoadDelay ();
+    "generator_overcurrent_monitoring" GeneratorOvercurrentMonitoring ();
+    "overcurrent_1_threshold" Overcurrent1Threshold ();
+    "overcurrent_1_delay" Overcurrent1Delay ();
+    "overcurrent_2_threshold" Overcurrent2Threshold ();
+    "overcurrent_2_delay" Overcurrent2Delay ();
+    "inverse_time_overcurrent" InverseTimeOvercurrent ();
+    "inverse_time_overcurrent_characteristic" InverseTimeOvercurrentCharacteristic ();
+    "inverse_time_overcurrent_tp" InverseTimeOvercurrentTp ();
+    "inverse_time_overcurrent_ip" InverseTimeOvercurrentIp ();
+    "inverse_time_overcurrent_istart" InverseTimeOvercurrentIstart ();
+    "inverse_time_overcurrent_by_voltage" InverseTimeOvercurrentByVoltage ();
+    "inverse_time_overcurrent_voltage_knee" InverseTimeOvercurrentVoltageKnee ();
+    "generator_overfrequency_monitoring" GeneratorOverfrequencyMonitoring ();
+    "generator_overfrequency_1_threshold" GeneratorOverfrequency1Threshold ();
+    "generator_overfrequency_1_delay" GeneratorOverfrequency1Delay ();
+    "generator_overfrequency_2_threshold" GeneratorOverfrequency2Threshold ();
+    "generator_overfrequency_2_delay" GeneratorOverfrequency2Delay ();
+    "generator_underfrequency_monitoring" GeneratorUnderfrequencyMonitoring ();
+    "generator_underfrequency_1_threshold" GeneratorUnderfrequency1Threshold ();
+    "generator_underfrequency_1_delay" GeneratorUnderfrequency1Delay ();
+    "generator_underfrequency_2_threshold" GeneratorUnderfrequency2Threshold ();
+    "generator_underfrequency_2_delay" GeneratorUnderfrequency2Delay ();
+    "generator_overvoltage_monitoring" GeneratorOvervoltageMonitoring ();
+    "generator_overvoltage_1_threshold_100v" GeneratorOvervoltage1Threshold100v
+        (GeneratorOvervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_1_threshold_400v" GeneratorOvervoltage1Threshold400v
+        (GeneratorOvervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_1_delay" GeneratorOvervoltage1Delay ();
+    "generator_overvoltage_2_threshold_100v" GeneratorOvervoltage2Threshold100v
+        (GeneratorOvervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_2_threshold_400v" GeneratorOvervoltage2Threshold400v
+        (GeneratorOvervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_2_delay" GeneratorOvervoltage2Delay ();
+    "generator_undervoltage_monitoring" GeneratorUndervoltageMonitoring ();
+    "generator_undervoltage_1_threshold_100v" GeneratorUndervoltage1Threshold100v
+        (GeneratorUndervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_1_threshold_400v" GeneratorUndervoltage1Threshold400v
+        (GeneratorUndervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_1_delay" GeneratorUndervoltage1Delay ();
+    "generator_undervoltage_2_threshold_100v" GeneratorUndervoltage2Threshold100v
+        (GeneratorUndervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_2_threshold_400v" GeneratorUndervoltage2Threshold400v
+        (GeneratorUndervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_2_delay" GeneratorUndervoltage2Delay ();
+    "mains_frequency_monitoring" MainsFrequencyMonitoring ();
+    "mains_overfrequency_threshold" MainsOverfrequencyThreshold ();
+    "mains_overfrequency_delay" MainsOverfrequencyDelay ();
+    "mains_underfrequency_threshold" MainsUnderfrequencyThreshold ();
+    "mains_underfrequency_delay" MainsUnderfrequencyDelay ();
+    "mains_voltage_monitoring" MainsVoltageMonitoring ();
+    "mains_overvoltage_threshold_100v" MainsOvervoltageThreshold100v (MainsOvervoltageThreshold100v:
+        mains_voltage_factor "mains_voltage_factor");
+    "mains_overvoltage_threshold_400v" MainsOvervoltageThreshold400v (MainsOvervoltageThreshold400v:
+        mains_voltage_factor "mains_voltage_factor");
+    "mains_overvoltage_delay" MainsOvervoltageDelay ();
+    "mains_undervoltage_threshold_100v" MainsUndervoltageThreshold100v (MainsUndervoltageThreshold100v:
+        mains_voltage_factor "mains_voltage_factor");
+    "mains_undervoltage_threshold_400v" MainsUndervoltageThreshold400v (MainsUndervoltageThreshold400v:
+        mains_voltage_factor "mains_voltage_factor");
+    "mains_undervoltage_delay" MainsUndervoltageDelay ();
+    "phase_shift_monitoring" PhaseShiftMonitoring ();
+    "phase_shift_monitoring_phases" PhaseShiftMonitoringPhases ();
+    "phase_shift_threshold_single_phase" PhaseShiftThresholdSinglePhase ();
+    "phase_shift_threshold_three_phase" PhaseShiftThresholdThreePhase ();
+    "reactive_power_monitoring" ReactivePowerMonitoring ();
+    "reactive_power_threshold_inductive" ReactivePowerThresholdInductive ();
+    "reactive_power_delay_inductive" ReactivePowerDelayInductive ();
+    "reactive_power_threshold_capacitive" ReactivePowerThresholdCapacitive ();
+    "reactive_power_delay_capacitive" ReactivePowerDelayCapacitive ();
+    "earth_fault_monitoring" EarthFaultMonitoring ();
+    "earth_fault_threshold" EarthFaultThreshold ();
+    "earth_fault_delay" EarthFaultDelay ();
+    "battery_undervoltage_threshold" BatteryUndervoltageThreshold ();
+    "battery_undervoltage_delay" BatteryUndervoltageDelay ();
+    "digital_inputs_1_to_4_logic" DigitalInputs1To4Logic ();
+    "digital_inputs_1_to_4_delay" DigitalInputs1To4Delay ();
+    "digital_inputs_1_to_4_engine_delay" DigitalInputs1To4EngineDelay ();
+    "digital_inputs_1_to_4_fault_class" DigitalInputs1To4FaultClass ();
+    "digital_inputs_5_to_8_logic" DigitalInputs5To8Logic ();
+    "digital_inputs_5_to_8_delay" DigitalInputs5To8Delay ();
+    "digital_inputs_5_to_8_engine_delay" DigitalInputs5To8EngineDelay ();
+    "digital_inputs_5_to_8_fault_class" DigitalInputs5To8FaultClass ();
+    "digital_inputs_9_to_12_logic" DigitalInputs9To12Logic ();
+    "digital_inputs_9_to_12_delay" DigitalInputs9To12Delay ();
+    "digital_inputs_9_to_12_engine_delay" DigitalInputs9To12EngineDelay ();
+    "digital_inputs_9_to_12_fault_class" DigitalInputs9To12FaultClass ();
+    "analog_output_1_source" AnalogOutput1Source ();
+    "analog_output_1_current_range" AnalogOutput1CurrentRange ();
+    "analog_output_1_value_at_0_percent" AnalogOutput1ValueAt0Percent (AnalogOutput1ValueAt0Percent:
+        analog_output_1_source "analog_output_1_source");
+    "analog_output_1_value_at_100_percent" AnalogOutput1ValueAt100Percent (AnalogOutput1ValueAt100Percent:
+        analog_output_1_source "analog_output_1_source");
+    "analog_output_2_source" AnalogOutput2Source ();
+    "analog_output_2_current_range" AnalogOutput2CurrentRange ();
+    "analog_output_2_value_at_0_percent" AnalogOutput2ValueAt0Percent (AnalogOutput2ValueAt0Percent:
+        analog_output_2_source "analog_output_2_source");
+    "analog_output_2_value_at_100_percent" AnalogOutput2ValueAt100Percent (AnalogOutput2ValueAt100Percent:
+        analog_output_2_source "analog_output_2_source");
+    "relay_1_event_1" Relay1Event1 ();
+    "relay_1_logic_1" Relay1Logic1 ();
+    "relay_1_event_2" Relay1Event2 ();
+    "relay_1_logic_2" Relay1Logic2 ();
+    "relay_1_event_3" Relay1Event3 ();
+    "relay_1_logic_3" Relay1Logic3 ();
+    "relay_2_event_1" Relay2Event1 ();
+    "relay_2_logic_1" Relay2Logic1 ();
+    "relay_2_event_2" Relay2Event2 ();
+    "relay_2_logic_2" Relay2Logic2 ();
+    "relay_2_event_3" Relay2Event3 ();
+    "relay_2_logic_3" Relay2Logic3 ();
+    "relay_3_event_1" Relay3Event1 ();
+    "relay_3_logic_1" Relay3Logic1 ();
+    "relay_3_event_2" Relay3Event2 ();
+    "relay_3_logic_2" Relay3Logic2 ();
+    "relay_3_event_3" Relay3Event3 ();
+    "relay_3_logic_3" Relay3Logic3 ();
+    "relay_4_event_1" Relay4Event1 ();
+    "relay_4_logic_1" Relay4Logic1 ();
+    "relay_4_event_2" Relay4Event2 ();
+    "relay_4_logic_2" Relay4Logic2 ();
+    "relay_4_event_3" Relay4Event3 ();
+    "relay_4_logic_3" Relay4Logic3 ();
+    "relay_5_event_1" Relay5Event1 ();
+    "relay_5_logic_1" Relay5Logic1 ();
+    "relay_5_event_2" Relay5Event2 ();
+    "relay_5_logic_2" Relay5Logic2 ();
+    "relay_5_event_3" Relay5Event3 ();
+    "relay_5_logic_3" Relay5Logic3 ();
+    "relay_6_event_1" Relay6Event1 ();
+    "relay_6_logic_1" Relay6Logic1 ();
+    "relay_6_event_2" Relay6Event2 ();
+    "relay_6_logic_2" Relay6Logic2 ();
+    "relay_6_event_3" Relay6Event3 ();
+    "relay_6_logic_3" Relay6Logic3 ();
+    "relay_7_event_1" Relay7Event1 ();
+    "relay_7_logic_1" Relay7Logic1 ();
+    "relay_7_event_2" Relay7Event2 ();
+    "relay_7_logic_2" Relay7Logic2 ();
+    "relay_7_event_3" Relay7Event3 ();
+    "relay_7_logic_3" Relay7Logic3 ();
+    "automatic_idle_control" AutomaticIdleControl ();
+    "shutdown" Shutdown ();
+    "engine_monitoring_delay" EngineMonitoringDelay ();
+    "monitoring_start_frequency" MonitoringStartFrequency ();
 } }
 
 table! { read_by_read read {
@@ -2635,6 +2298,232 @@ table! { write_by_write write {
     "monitoring_start_frequency" MonitoringStartFrequency (wire () ());
 } }
 
+table! { encode encode {
+    "generator_frequency_setpoint" GeneratorFrequencySetpoint ();
+    "generator_rated_frequency" GeneratorRatedFrequency ();
+    "generator_voltage_setpoint_100v" GeneratorVoltageSetpoint100v (GeneratorVoltageSetpoint100v:
+        generator_voltage_factor "generator_voltage_factor");
+    "generator_voltage_setpoint_400v" GeneratorVoltageSetpoint400v (GeneratorVoltageSetpoint400v:
+        generator_voltage_factor "generator_voltage_factor");
+    "generator_rated_voltage_100v" GeneratorRatedVoltage100v (GeneratorRatedVoltage100v:
+        generator_voltage_factor "generator_voltage_factor");
+    "generator_rated_voltage_400v" GeneratorRatedVoltage400v (GeneratorRatedVoltage400v:
+        generator_voltage_factor "generator_voltage_factor");
+    "frequency_controller_start_frequency" FrequencyControllerStartFrequency ();
+    "frequency_controller_start_delay" FrequencyControllerStartDelay ();
+    "frequency_controller_dead_band" FrequencyControllerDeadBand ();
+    "frequency_controller_pulse_time" FrequencyControllerPulseTime ();
+    "frequency_controller_gain" FrequencyControllerGain ();
+    "voltage_controller_dead_band" VoltageControllerDeadBand ();
+    "voltage_controller_pulse_time" VoltageControllerPulseTime ();
+    "voltage_controller_gain" VoltageControllerGain ();
+    "cos_phi_controller_setpoint" CosPhiControllerSetpoint ();
+    "cos_phi_controller_dead_band" CosPhiControllerDeadBand ();
+    "cos_phi_controller_gain" CosPhiControllerGain ();
+    "active_power_controller_maximum" ActivePowerControllerMaximum ();
+    "active_power_controller_minimum" ActivePowerControllerMinimum ();
+    "active_power_controller_dead_band" ActivePowerControllerDeadBand ();
+    "active_power_controller_gain" ActivePowerControllerGain ();
+    "active_power_controller_reduction_factor" ActivePowerControllerReductionFactor ();
+    "part_load_lead_setpoint" PartLoadLeadSetpoint ();
+    "part_load_lead_time" PartLoadLeadTime ();
+    "load_ramp_maximum_time" LoadRampMaximumTime ();
+    "synchronisation_frequency_difference_max" SynchronisationFrequencyDifferenceMax ();
+    "synchronisation_frequency_difference_min" SynchronisationFrequencyDifferenceMin ();
+    "synchronisation_voltage_difference_max" SynchronisationVoltageDifferenceMax ();
+    "synchronisation_voltage_difference_min" SynchronisationVoltageDifferenceMin ();
+    "synchronisation_pulse_time" SynchronisationPulseTime ();
+    "dead_bus_start_frequency_difference_max" DeadBusStartFrequencyDifferenceMax ();
+    "dead_bus_start_voltage_difference_max" DeadBusStartVoltageDifferenceMax ();
+    "overload_threshold_parallel_operation" OverloadThresholdParallelOperation ();
+    "overload_delay_parallel_operation" OverloadDelayParallelOperation ();
+    "overload_threshold_isolated_operation" OverloadThresholdIsolatedOperation ();
+    "overload_delay_isolated_operation" OverloadDelayIsolatedOperation ();
+    "reverse_power_threshold" ReversePowerThreshold ();
+    "reverse_power_delay" ReversePowerDelay ();
+    "unbalanced_load_threshold" UnbalancedLoadThreshold ();
+    "unbalanced_load_delay" UnbalancedLoadDelay ();
+    "overcurrent_1_threshold" Overcurrent1Threshold ();
+    "overcurrent_1_delay" Overcurrent1Delay ();
+    "overcurrent_2_threshold" Overcurrent2Threshold ();
+    "overcurrent_2_delay" Overcurrent2Delay ();
+    "inverse_time_overcurrent_tp" InverseTimeOvercurrentTp ();
+    "inverse_time_overcurrent_ip" InverseTimeOvercurrentIp ();
+    "inverse_time_overcurrent_istart" InverseTimeOvercurrentIstart ();
+    "generator_overfrequency_1_threshold" GeneratorOverfrequency1Threshold ();
+    "generator_overfrequency_1_delay" GeneratorOverfrequency1Delay ();
+    "generator_overfrequency_2_threshold" GeneratorOverfrequency2Threshold ();
+    "generator_overfrequency_2_delay" GeneratorOverfrequency2Delay ();
+    "generator_underfrequency_1_threshold" GeneratorUnderfrequency1Threshold ();
+    "generator_underfrequency_1_delay" GeneratorUnderfrequency1Delay ();
+    "generator_underfrequency_2_threshold" GeneratorUnderfrequency2Threshold ();
+    "generator_underfrequency_2_delay" GeneratorUnderfrequency2Delay ();
+    "generator_overvoltage_1_threshold_100v" GeneratorOvervoltage1Threshold100v
+        (GeneratorOvervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_1_threshold_400v" GeneratorOvervoltage1Threshold400v
+        (GeneratorOvervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_1_delay" GeneratorOvervoltage1Delay ();
+    "generator_overvoltage_2_threshold_100v" GeneratorOvervoltage2Threshold100v
+        (GeneratorOvervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_2_threshold_400v" GeneratorOvervoltage2Threshold400v
+        (GeneratorOvervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_2_delay" GeneratorOvervoltage2Delay ();
+    "generator_undervoltage_1_threshold_100v" GeneratorUndervoltage1Threshold100v
+        (GeneratorUndervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_1_threshold_400v" GeneratorUndervoltage1Threshold400v
+        (GeneratorUndervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_1_delay" GeneratorUndervoltage1Delay ();
+    "generator_undervoltage_2_threshold_100v" GeneratorUndervoltage2Threshold100v
+        (GeneratorUndervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_2_threshold_400v" GeneratorUndervoltage2Threshold400v
+        (GeneratorUndervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_2_delay" GeneratorUndervoltage2Delay ();
+    "mains_overfrequency_threshold" MainsOverfrequencyThreshold ();
+    "mains_overfrequency_delay" MainsOverfrequencyDelay ();
+    "mains_underfrequency_threshold" MainsUnderfrequencyThreshold ();
+    "mains_underfrequency_delay" MainsUnderfrequencyDelay ();
+    "mains_overvoltage_threshold_100v" MainsOvervoltageThreshold100v (MainsOvervoltageThreshold100v:
+        mains_voltage_factor "mains_voltage_factor");
+    "mains_overvoltage_threshold_400v" MainsOvervoltageThreshold400v (MainsOvervoltageThreshold400v:
+        mains_voltage_factor "mains_voltage_factor");
+    "mains_overvoltage_delay" MainsOvervoltageDelay ();
+    "mains_undervoltage_threshold_100v" MainsUndervoltageThreshold100v (MainsUndervoltageThreshold100v:
+        mains_voltage_factor "mains_voltage_factor");
+    "mains_undervoltage_threshold_400v" MainsUndervoltageThreshold400v (MainsUndervoltageThreshold400v:
+        mains_voltage_factor "mains_voltage_factor");
+    "mains_undervoltage_delay" MainsUndervoltageDelay ();
+    "reactive_power_threshold_inductive" ReactivePowerThresholdInductive ();
+    "reactive_power_delay_inductive" ReactivePowerDelayInductive ();
+    "reactive_power_threshold_capacitive" ReactivePowerThresholdCapacitive ();
+    "reactive_power_delay_capacitive" ReactivePowerDelayCapacitive ();
+    "earth_fault_threshold" EarthFaultThreshold ();
+    "earth_fault_delay" EarthFaultDelay ();
+    "battery_undervoltage_threshold" BatteryUndervoltageThreshold ();
+    "battery_undervoltage_delay" BatteryUndervoltageDelay ();
+    "analog_output_1_value_at_0_percent" AnalogOutput1ValueAt0Percent (AnalogOutput1ValueAt0Percent:
+        analog_output_1_source "analog_output_1_source");
+    "analog_output_1_value_at_100_percent" AnalogOutput1ValueAt100Percent (AnalogOutput1ValueAt100Percent:
+        analog_output_1_source "analog_output_1_source");
+    "analog_output_2_value_at_0_percent" AnalogOutput2ValueAt0Percent (AnalogOutput2ValueAt0Percent:
+        analog_output_2_source "analog_output_2_source");
+    "analog_output_2_value_at_100_percent" AnalogOutput2ValueAt100Percent (AnalogOutput2ValueAt100Percent:
+        analog_output_2_source "analog_output_2_source");
+    "monitoring_start_frequency" MonitoringStartFrequency ();
+} }
+
+table! { encode_count encode_count {
+    "generator_frequency_setpoint" GeneratorFrequencySetpoint ();
+    "generator_rated_frequency" GeneratorRatedFrequency ();
+    "generator_voltage_setpoint_100v" GeneratorVoltageSetpoint100v (GeneratorVoltageSetpoint100v:
+        generator_voltage_factor "generator_voltage_factor");
+    "generator_voltage_setpoint_400v" GeneratorVoltageSetpoint400v (GeneratorVoltageSetpoint400v:
+        generator_voltage_factor "generator_voltage_factor");
+    "generator_rated_voltage_100v" GeneratorRatedVoltage100v (GeneratorRatedVoltage100v:
+        generator_voltage_factor "generator_voltage_factor");
+    "generator_rated_voltage_400v" GeneratorRatedVoltage400v (GeneratorRatedVoltage400v:
+        generator_voltage_factor "generator_voltage_factor");
+    "frequency_controller_start_frequency" FrequencyControllerStartFrequency ();
+    "frequency_controller_start_delay" FrequencyControllerStartDelay ();
+    "frequency_controller_dead_band" FrequencyControllerDeadBand ();
+    "frequency_controller_pulse_time" FrequencyControllerPulseTime ();
+    "frequency_controller_gain" FrequencyControllerGain ();
+    "voltage_controller_dead_band" VoltageControllerDeadBand ();
+    "voltage_controller_pulse_time" VoltageControllerPulseTime ();
+    "voltage_controller_gain" VoltageControllerGain ();
+    "cos_phi_controller_setpoint" CosPhiControllerSetpoint ();
+    "cos_phi_controller_dead_band" CosPhiControllerDeadBand ();
+    "cos_phi_controller_gain" CosPhiControllerGain ();
+    "active_power_controller_maximum" ActivePowerControllerMaximum ();
+    "active_power_controller_minimum" ActivePowerControllerMinimum ();
+    "active_power_controller_dead_band" ActivePowerControllerDeadBand ();
+    "active_power_controller_gain" ActivePowerControllerGain ();
+    "active_power_controller_reduction_factor" ActivePowerControllerReductionFactor ();
+    "part_load_lead_setpoint" PartLoadLeadSetpoint ();
+    "part_load_lead_time" PartLoadLeadTime ();
+    "load_ramp_maximum_time" LoadRampMaximumTime ();
+    "synchronisation_frequency_difference_max" SynchronisationFrequencyDifferenceMax ();
+    "synchronisation_frequency_difference_min" SynchronisationFrequencyDifferenceMin ();
+    "synchronisation_voltage_difference_max" SynchronisationVoltageDifferenceMax ();
+    "synchronisation_voltage_difference_min" SynchronisationVoltageDifferenceMin ();
+    "synchronisation_pulse_time" SynchronisationPulseTime ();
+    "dead_bus_start_frequency_difference_max" DeadBusStartFrequencyDifferenceMax ();
+    "dead_bus_start_voltage_difference_max" DeadBusStartVoltageDifferenceMax ();
+    "overload_threshold_parallel_operation" OverloadThresholdParallelOperation ();
+    "overload_delay_parallel_operation" OverloadDelayParallelOperation ();
+    "overload_threshold_isolated_operation" OverloadThresholdIsolatedOperation ();
+    "overload_delay_isolated_operation" OverloadDelayIsolatedOperation ();
+    "reverse_power_threshold" ReversePowerThreshold ();
+    "reverse_power_delay" ReversePowerDelay ();
+    "unbalanced_load_threshold" UnbalancedLoadThreshold ();
+    "unbalanced_load_delay" UnbalancedLoadDelay ();
+    "overcurrent_1_threshold" Overcurrent1Threshold ();
+    "overcurrent_1_delay" Overcurrent1Delay ();
+    "overcurrent_2_threshold" Overcurrent2Threshold ();
+    "overcurrent_2_delay" Overcurrent2Delay ();
+    "inverse_time_overcurrent_tp" InverseTimeOvercurrentTp ();
+    "inverse_time_overcurrent_ip" InverseTimeOvercurrentIp ();
+    "inverse_time_overcurrent_istart" InverseTimeOvercurrentIstart ();
+    "generator_overfrequency_1_threshold" GeneratorOverfrequency1Threshold ();
+    "generator_overfrequency_1_delay" GeneratorOverfrequency1Delay ();
+    "generator_overfrequency_2_threshold" GeneratorOverfrequency2Threshold ();
+    "generator_overfrequency_2_delay" GeneratorOverfrequency2Delay ();
+    "generator_underfrequency_1_threshold" GeneratorUnderfrequency1Threshold ();
+    "generator_underfrequency_1_delay" GeneratorUnderfrequency1Delay ();
+    "generator_underfrequency_2_threshold" GeneratorUnderfrequency2Threshold ();
+    "generator_underfrequency_2_delay" GeneratorUnderfrequency2Delay ();
+    "generator_overvoltage_1_threshold_100v" GeneratorOvervoltage1Threshold100v
+        (GeneratorOvervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_1_threshold_400v" GeneratorOvervoltage1Threshold400v
+        (GeneratorOvervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_1_delay" GeneratorOvervoltage1Delay ();
+    "generator_overvoltage_2_threshold_100v" GeneratorOvervoltage2Threshold100v
+        (GeneratorOvervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_2_threshold_400v" GeneratorOvervoltage2Threshold400v
+        (GeneratorOvervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_2_delay" GeneratorOvervoltage2Delay ();
+    "generator_undervoltage_1_threshold_100v" GeneratorUndervoltage1Threshold100v
+        (GeneratorUndervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_1_threshold_400v" GeneratorUndervoltage1Threshold400v
+        (GeneratorUndervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_1_delay" GeneratorUndervoltage1Delay ();
+    "generator_undervoltage_2_threshold_100v" GeneratorUndervoltage2Threshold100v
+        (GeneratorUndervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_2_threshold_400v" GeneratorUndervoltage2Threshold400v
+        (GeneratorUndervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_2_delay" GeneratorUndervoltage2Delay ();
+    "mains_overfrequency_threshold" MainsOverfrequencyThreshold ();
+    "mains_overfrequency_delay" MainsOverfrequencyDelay ();
+    "mains_underfrequency_threshold" MainsUnderfrequencyThreshold ();
+    "mains_underfrequency_delay" MainsUnderfrequencyDelay ();
+    "mains_overvoltage_threshold_100v" MainsOvervoltageThreshold100v (MainsOvervoltageThreshold100v:
+        mains_voltage_factor "mains_voltage_factor");
+    "mains_overvoltage_threshold_400v" MainsOvervoltageThreshold400v (MainsOvervoltageThreshold400v:
+        mains_voltage_factor "mains_voltage_factor");
+    "mains_overvoltage_delay" MainsOvervoltageDelay ();
+    "mains_undervoltage_threshold_100v" MainsUndervoltageThreshold100v (MainsUndervoltageThreshold100v:
+        mains_voltage_factor "mains_voltage_factor");
+    "mains_undervoltage_threshold_400v" MainsUndervoltageThreshold400v (MainsUndervoltageThreshold400v:
+        mains_voltage_factor "mains_voltage_factor");
+    "mains_undervoltage_delay" MainsUndervoltageDelay ();
+    "reactive_power_threshold_inductive" ReactivePowerThresholdInductive ();
+    "reactive_power_delay_inductive" ReactivePowerDelayInductive ();
+    "reactive_power_threshold_capacitive" ReactivePowerThresholdCapacitive ();
+    "reactive_power_delay_capacitive" ReactivePowerDelayCapacitive ();
+    "earth_fault_threshold" EarthFaultThreshold ();
+    "earth_fault_delay" EarthFaultDelay ();
+    "battery_undervoltage_threshold" BatteryUndervoltageThreshold ();
+    "battery_undervoltage_delay" BatteryUndervoltageDelay ();
+    "analog_output_1_value_at_0_percent" AnalogOutput1ValueAt0Percent (AnalogOutput1ValueAt0Percent:
+        analog_output_1_source "analog_output_1_source");
+    "analog_output_1_value_at_100_percent" AnalogOutput1ValueAt100Percent (AnalogOutput1ValueAt100Percent:
+        analog_output_1_source "analog_output_1_source");
+    "analog_output_2_value_at_0_percent" AnalogOutput2ValueAt0Percent (AnalogOutput2ValueAt0Percent:
+        analog_output_2_source "analog_output_2_source");
+    "analog_output_2_value_at_100_percent" AnalogOutput2ValueAt100Percent (AnalogOutput2ValueAt100Percent:
+        analog_output_2_source "analog_output_2_source");
+    "monitoring_start_frequency" MonitoringStartFrequency ();
+} }
+
 table! { write_by_update update {
     "power_measurement_phases" PowerMeasurementPhases (wire);
     "frequency_controller" FrequencyController (wire);
@@ -2720,6 +2609,54 @@ table! { write_by_update update {
     "shutdown" Shutdown (wire);
 } }
 
+table! { digits digits {
+    "digital_inputs_1_to_4_delay" DigitalInputs1To4Delay (digits 4 u16);
+    "digital_inputs_1_to_4_fault_class" DigitalInputs1To4FaultClass (digits 4 u16);
+    "digital_inputs_5_to_8_delay" DigitalInputs5To8Delay (digits 4 u16);
+    "digital_inputs_5_to_8_fault_class" DigitalInputs5To8FaultClass (digits 4 u16);
+    "digital_inputs_9_to_12_delay" DigitalInputs9To12Delay (digits 4 u16);
+    "digital_inputs_9_to_12_fault_class" DigitalInputs9To12FaultClass (digits 4 u16);
+} }
+
+table! { digits_encode digits_encode {
+    "digital_inputs_1_to_4_delay" DigitalInputs1To4Delay (digits 4 u16);
+    "digital_inputs_1_to_4_fault_class" DigitalInputs1To4FaultClass (digits 4 u16);
+    "digital_inputs_5_to_8_delay" DigitalInputs5To8Delay (digits 4 u16);
+    "digital_inputs_5_to_8_fault_class" DigitalInputs5To8FaultClass (digits 4 u16);
+    "digital_inputs_9_to_12_delay" DigitalInputs9To12Delay (digits 4 u16);
+    "digital_inputs_9_to_12_fault_class" DigitalInputs9To12FaultClass (digits 4 u16);
+} }
+
+table! { text_decode text_decode {
+    "fault_text_terminal_62" FaultTextTerminal62 (sizes 16 8);
+    "fault_text_terminal_63" FaultTextTerminal63 (sizes 16 8);
+    "fault_text_terminal_64" FaultTextTerminal64 (sizes 16 8);
+    "fault_text_terminal_65" FaultTextTerminal65 (sizes 16 8);
+    "fault_text_terminal_66" FaultTextTerminal66 (sizes 16 8);
+    "fault_text_terminal_67" FaultTextTerminal67 (sizes 16 8);
+    "fault_text_terminal_68" FaultTextTerminal68 (sizes 16 8);
+    "fault_text_terminal_69" FaultTextTerminal69 (sizes 16 8);
+    "fault_text_terminal_70" FaultTextTerminal70 (sizes 16 8);
+    "fault_text_terminal_71" FaultTextTerminal71 (sizes 16 8);
+    "fault_text_terminal_72" FaultTextTerminal72 (sizes 16 8);
+    "fault_text_terminal_73" FaultTextTerminal73 (sizes 16 8);
+} }
+
+table! { text_encode text_encode {
+    "fault_text_terminal_62" FaultTextTerminal62 (sizes 16 8);
+    "fault_text_terminal_63" FaultTextTerminal63 (sizes 16 8);
+    "fault_text_terminal_64" FaultTextTerminal64 (sizes 16 8);
+    "fault_text_terminal_65" FaultTextTerminal65 (sizes 16 8);
+    "fault_text_terminal_66" FaultTextTerminal66 (sizes 16 8);
+    "fault_text_terminal_67" FaultTextTerminal67 (sizes 16 8);
+    "fault_text_terminal_68" FaultTextTerminal68 (sizes 16 8);
+    "fault_text_terminal_69" FaultTextTerminal69 (sizes 16 8);
+    "fault_text_terminal_70" FaultTextTerminal70 (sizes 16 8);
+    "fault_text_terminal_71" FaultTextTerminal71 (sizes 16 8);
+    "fault_text_terminal_72" FaultTextTerminal72 (sizes 16 8);
+    "fault_text_terminal_73" FaultTextTerminal73 (sizes 16 8);
+} }
+
 table! { read_by_read_text read_text {
     "fault_text_terminal_62" FaultTextTerminal62 (wire);
     "fault_text_terminal_63" FaultTextTerminal63 (wire);
@@ -2750,12 +2687,49 @@ table! { write_by_write_text write_text {
     "fault_text_terminal_73" FaultTextTerminal73 (wire);
 } }
 
-table! { can_taken can_taken {
-    "visualisation" telegrams (telegram Visualisation);
-} }
-
-table! { can_carrier can_carrier {
-    "visualisation" telegrams (telegram Visualisation);
+table! { fixed fixed {
+    "relay_1_event_1" Relay1Event1 (alone);
+    "relay_1_logic_1" Relay1Logic1 (alone);
+    "relay_1_event_2" Relay1Event2 (alone);
+    "relay_1_logic_2" Relay1Logic2 (alone);
+    "relay_1_event_3" Relay1Event3 (alone);
+    "relay_1_logic_3" Relay1Logic3 (alone);
+    "relay_2_event_1" Relay2Event1 (alone);
+    "relay_2_logic_1" Relay2Logic1 (alone);
+    "relay_2_event_2" Relay2Event2 (alone);
+    "relay_2_logic_2" Relay2Logic2 (alone);
+    "relay_2_event_3" Relay2Event3 (alone);
+    "relay_2_logic_3" Relay2Logic3 (alone);
+    "relay_3_event_1" Relay3Event1 (alone);
+    "relay_3_logic_1" Relay3Logic1 (alone);
+    "relay_3_event_2" Relay3Event2 (alone);
+    "relay_3_logic_2" Relay3Logic2 (alone);
+    "relay_3_event_3" Relay3Event3 (alone);
+    "relay_3_logic_3" Relay3Logic3 (alone);
+    "relay_4_event_1" Relay4Event1 (alone);
+    "relay_4_logic_1" Relay4Logic1 (alone);
+    "relay_4_event_2" Relay4Event2 (alone);
+    "relay_4_logic_2" Relay4Logic2 (alone);
+    "relay_4_event_3" Relay4Event3 (alone);
+    "relay_4_logic_3" Relay4Logic3 (alone);
+    "relay_5_event_1" Relay5Event1 (alone);
+    "relay_5_logic_1" Relay5Logic1 (alone);
+    "relay_5_event_2" Relay5Event2 (alone);
+    "relay_5_logic_2" Relay5Logic2 (alone);
+    "relay_5_event_3" Relay5Event3 (alone);
+    "relay_5_logic_3" Relay5Logic3 (alone);
+    "relay_6_event_1" Relay6Event1 (alone);
+    "relay_6_logic_1" Relay6Logic1 (alone);
+    "relay_6_event_2" Relay6Event2 (alone);
+    "relay_6_logic_2" Relay6Logic2 (alone);
+    "relay_6_event_3" Relay6Event3 (alone);
+    "relay_6_logic_3" Relay6Logic3 (alone);
+    "relay_7_event_1" Relay7Event1 (alone);
+    "relay_7_logic_1" Relay7Logic1 (alone);
+    "relay_7_event_2" Relay7Event2 (alone);
+    "relay_7_logic_2" Relay7Logic2 (alone);
+    "relay_7_event_3" Relay7Event3 (alone);
+    "relay_7_logic_3" Relay7Logic3 (alone);
 } }
 
 table! { documented documented {
@@ -2771,44 +2745,44 @@ table! { documented documented {
     "frequency_controller_ramp" points (documented FREQUENCY_CONTROLLER_RAMP);
 } }
 
+table! { can_taken can_taken {
+    "visualisation" telegrams (telegram Visualisation);
+} }
+
+table! { can_carrier can_carrier {
+    "visualisation" telegrams (telegram Visualisation);
+} }
+
 fn run(kind: &str, vector: &runner::Vector) -> Option<runner::Outcome> {
     match kind {
+        "decode_count" => decode_plain(vector).or_else(|| decode_count(vector)),
+        "place" => place(vector),
+        "can_telegram" => can_telegram(vector),
         "decode" => decode(vector),
-        "encode" => encode(vector),
-        "decode_count" => decode_count(vector)
-            .or_else(|| decode_plain(vector))
-            .or_else(|| decode_coded(vector))
-            .or_else(|| decode_mixed(vector)),
-        "encode_count" => encode_count(vector)
-            .or_else(|| encode_plain(vector))
-            .or_else(|| encode_coded(vector))
-            .or_else(|| encode_mixed(vector)),
-        "check" => check(vector),
-        "name" => name(vector),
-        "special" => special(vector),
-        "special_name" => special_name(vector),
+        "symbol" => symbol(vector),
+        "words" => words(vector),
+        "bits" => bits(vector),
         "flag" => flag(vector),
         "flag_name" => flag_name(vector),
-        "bits" => bits(vector),
-        "words" => words(vector),
-        "address" => runner::listed(vector, device::POINTS, address(vector)),
-        "symbol" => symbol(vector),
-        "place" => place(vector),
-        "fixed" => fixed(vector),
-        "text_decode" => text_decode(vector),
-        "text_encode" => text_encode(vector),
-        "can_telegram" => can_telegram(vector),
-        "can_taken" => can_taken(vector),
-        "can_carrier" => can_carrier(vector),
-        "documented" => documented(vector),
-        "digits" => digits(vector),
-        "digits_encode" => digits_encode(vector),
+        "name" => name(vector),
+        "encode_count" => encode_plain(vector).or_else(|| encode_count(vector)),
+        "check" => check(vector),
         "read" => read_by_read(vector).or_else(|| read_by_read_text(vector)),
         "write" => write_by_write(vector)
             .or_else(|| write_by_update(vector))
             .or_else(|| write_by_write_text(vector)),
+        "encode" => encode(vector),
+        "digits" => digits(vector),
+        "digits_encode" => digits_encode(vector),
+        "text_decode" => text_decode(vector),
+        "text_encode" => text_encode(vector),
+        "fixed" => fixed(vector),
+        "documented" => documented(vector),
+        "can_taken" => can_taken(vector),
+        "can_carrier" => can_carrier(vector),
+        "address" => runner::listed(vector, device::POINTS, address(vector)),
         "can_build" => Some(frames::build(vector, &device::PROFILE, device::MESSAGES)),
-        "can_parse" => Some(frames::parse(vector, device::MESSAGES)),
+        "can_reply" => Some(frames::parse(vector, device::MESSAGES)),
         "can_bus" => Some(frames::bus(vector, &device::PROFILE, Some(device::BITRATE))),
         _ => None,
     }

@@ -18,14 +18,14 @@ from fieldscribe.families.can.frames import (
     request_and_answer,
 )
 from fieldscribe.model import Bus, Device, Message, Point, Telegram
-from fieldscribe.targets.vectors.exchanges import Script, codes, single_bit_errors, with_flipped
-from fieldscribe.targets.vectors.integers import bytes_exchanged
+from fieldscribe.targets.vectors.frames import Script, Wire, single_bit_errors, with_flipped, words_in_bytes
 from fieldscribe.targets.vectors.lines import Lines
 from fieldscribe.targets.vectors.oracle import as_raw
+from fieldscribe.targets.vectors.words import bytes_exchanged
 
 KINDS = {
-    "can_build": "unit:int address:int raw:int status:word id:int? bytes:bytes?",
-    "can_parse": "unit:int id:int bytes:bytes? status:word address:int? raw:int?",
+    "can_build": "status:word id:int? bytes:bytes? frame:note?",
+    "can_reply": "id:int bytes:bytes? status:word address:int? raw:int? frame:note?",
     "can_taken": "frames:frames taken:ints",
     "can_bus": "only:rust identifier_bits:int bitrate:int?",
     "can_carrier": "only:rust carrier:word",
@@ -40,16 +40,19 @@ _PATTERN = 0x9A6C_5D33_E18F_2B47
 _NUMBERS = ((0, 0), (1, 1), (0x0102, 0xFEDC), (0xFFFF, 0xFFFF), (500, 1234), (0x00FF, 0xFF00), (0x8000, 0x8000))
 
 
-class CanWire:
+Request = tuple[str, int, int, int]
+"""The name of a message, its unit, its address and its raw number."""
+
+
+class CanWire(Wire):
     """Exchanges of parameters, word by word; a frame is its identifier in four bytes and its data."""
 
-    def __init__(self, device: Device) -> None:
-        self.units, self.unit = device.bus.units, device.bus.units[0]
-        self.messages = {writes: request_and_answer(device.messages, writes=writes) for writes in (False, True)}
+    PREFIX = "can_"
 
-    def opens(self, lines: Lines) -> None:
-        """Set the unit."""
-        lines.set("unit", self.unit)
+    def __init__(self, lines: Lines, device: Device) -> None:
+        super().__init__(lines, device, device.bus.units[0])
+        self.by_name = {message.name: message for message in device.messages}
+        self.messages = {writes: request_and_answer(device.messages, writes=writes) for writes in (False, True)}
 
     def reads(self, point: Point, words: tuple[int, ...]) -> Script | None:
         """Return a request and an answer for each word."""
@@ -69,7 +72,7 @@ class CanWire:
         ]
 
     def _bytes(self, message: Message, address: int, raw: int) -> bytes:
-        _, frame = build(message, self.units, self.unit, address, raw)
+        _, frame = build(message, self.bus.units, self.unit, address, raw)
         return frame.id.to_bytes(4, "big") + frame.data
 
     def bad_answers(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
@@ -86,26 +89,56 @@ class CanWire:
         if writes:
             yield "echo_mismatch", [(sent, self._bytes(answer, point.addresses[0], word ^ 0x0100))]
 
+    def set_request(self, request: Request) -> None:
+        """Set the message of the next vectors, and what it carries."""
+        self.lines.set("message", *request)
 
-def wires(device: Device) -> list[CanWire]:
+    def build(self, request: Request) -> tuple[object, ...]:
+        """Return the status of a message, its identifier and its data."""
+        name, *numbers = request
+        status, frame = build(self.by_name[name], self.bus.units, *numbers)
+        return status, *(frame if status == "ok" else (None, None))
+
+    def parse(self, request: Request, answer: CanFrame) -> tuple[object, ...]:
+        """Return a frame, its status as the message, its address and its raw number."""
+        name, unit, *_ = request
+        parsed = parse(self.by_name[name], unit, answer)
+        return *answer, parsed.status, *((parsed.address, parsed.raw) if parsed.status == "ok" else (None, None))
+
+    def add_message(self, message: Message) -> None:
+        """Add messages to build, good frames, and frames with another identifier, of every length, with a wrong bit."""
+        low, high = self.bus.units
+        tried = [(low, *pair) for pair in _NUMBERS] + [(unit, 0x0102, 0xFEDC) for unit in (high, low - 1, high + 1)]
+        tried += [(low, 0x10000, 0), (low, 0, 0x10000), (high + 1, 0x10000, 0x10000)]
+        self.add_builds((message.name, *numbers) for numbers in tried if numbers[0] >= 0)
+        goods = [build(message, self.bus.units, low, *numbers)[1] for numbers in _NUMBERS]
+        good = goods[2]
+        frames = [*goods, *(CanFrame(number, good.data) for number in (good.id ^ 1, good.id + 1, 0, 0x7FF))]
+        frames += [CanFrame(good.id, good.data[:length]) for length in range(len(good.data))]
+        frames += [CanFrame(good.id, data) for data in single_bit_errors(good.data)]
+        self.add_replies((message.name, low, 0, 0), frames)
+        self.add_replies((message.name, high, 0, 0), (build(message, self.bus.units, high, *_NUMBERS[2])[1], good))
+
+
+def wires(lines: Lines, device: Device) -> list[CanWire]:
     """Return the one way in which parameters travel."""
-    return [CanWire(device)]
+    return [CanWire(lines, device)]
 
 
 def frames(lines: Lines, device: Device) -> None:
     """Add all vectors of the frames of a device with messages of its own."""
+    wire = CanWire(lines, device)
     for message in device.messages:
         if message.roles and not carries(message, "word"):
-            _builds(lines, device.bus.units, message)
-            _parses(lines, device.bus.units, message)
+            wire.add_message(message)
     lines.add("can_bus", identifier_bits(device.bus), of_bus(device.bus).bitrate)
-    codes(lines, "constant", "exception", device.bus.exceptions)
+    wire.add_codes("constant", "exception", device.bus.exceptions)
     for message in (message for message in device.messages if message.fields):
         _signals(lines, device, message)
         lines.add("size", "words", message.name, sum(field.words for field in message.fields))
         if message.every is not None:
             lines.add("size", "every", message.name, message.every)
-    reads, _ = request_and_answer(device.messages, writes=False)
+    reads, _ = wire.messages[False]
     for group in device.groups:
         members = (point for point in device.points if point.generated and point.readable and point.group == group.name)
         addresses = [address for point in members if point.space == "parameter" for address in point.addresses]
@@ -115,34 +148,6 @@ def frames(lines: Lines, device: Device) -> None:
     for telegram in device.telegrams:
         if telegram.name in carrying and carrying[telegram.name].roles:
             _telegram(lines, device, telegram, carrying[telegram.name])
-
-
-def _builds(lines: Lines, units: tuple[int, int], message: Message) -> None:
-    low, high = units
-    tried = [(low, *pair) for pair in _NUMBERS] + [(unit, 0x0102, 0xFEDC) for unit in (high, low - 1, high + 1)]
-    tried += [(low, 0x10000, 0), (low, 0, 0x10000), (high + 1, 0x10000, 0x10000)]
-    for unit, address, raw in dict.fromkeys(tried):
-        if unit >= 0:
-            status, frame = build(message, units, unit, address, raw)
-            lines.set("message", message.name)
-            lines.add("can_build", unit, address, raw, status, *((frame.id, frame.data) if status == "ok" else ()))
-
-
-def _parses(lines: Lines, units: tuple[int, int], message: Message) -> None:
-    """Add good frames, frames with another identifier, of every length, and with every single bit flipped."""
-    low, high = units
-    tried = [(low, build(message, units, low, *numbers)[1]) for numbers in _NUMBERS]
-    if high != low:
-        tried.append((high, build(message, units, high, *_NUMBERS[2])[1]))
-    _, good = build(message, units, low, *_NUMBERS[2])
-    tried += [(low, CanFrame(number, good.data)) for number in (good.id ^ 1, good.id + 1, 0, 0x7FF)]
-    tried += [(low, CanFrame(good.id, good.data[:length])) for length in range(len(good.data))]
-    tried += [(low, CanFrame(good.id, data)) for data in single_bit_errors(good.data)]
-    for unit, frame in (*tried, (high, good)):
-        parsed = parse(message, unit, frame)
-        lines.set("message", message.name)
-        read = (parsed.address, parsed.raw) if parsed.status == "ok" else ()
-        lines.add("can_parse", unit, frame.id, frame.data, parsed.status, *read)
 
 
 def _telegram(lines: Lines, device: Device, telegram: Telegram, message: Message) -> None:
@@ -239,7 +244,7 @@ class _Received:
         status = next((status for status, _ in parts if status != "ok"), "ok")
         words = [word for _, words in parts for word in words]
         moved = (bytes_exchanged(self.point.shape, word) for word in words)
-        pattern = int.from_bytes(b"".join(word.to_bytes(2, "big") for word in moved), "big")
+        pattern = int.from_bytes(words_in_bytes([*moved]), "big")
         number = as_raw(self.point.shape, pattern >> (self.point.bits[1] if self.point.bits else 0))
         self.lines.set("point", self.point.item)
         self.lines.set("telegram", self.telegram.name, self.unit)

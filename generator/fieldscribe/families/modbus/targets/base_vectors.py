@@ -5,12 +5,11 @@ Each has the whole exchange that reads the set point, for languages whose device
 
 from collections.abc import Iterator, Mapping
 
-from fieldscribe.families.modbus import SPACES, Profile
-from fieldscribe.families.modbus.exchange import Request, build
-from fieldscribe.families.modbus.frames import frame
-from fieldscribe.model import Base, Device, Found, Point
-from fieldscribe.targets.vectors.exchanges import Script
-from fieldscribe.targets.vectors.lines import Lines
+from fieldscribe.families.modbus import SPACES
+from fieldscribe.families.modbus.exchange import Request
+from fieldscribe.families.modbus.targets.wire import ModbusWire
+from fieldscribe.model import Base, Found, Point
+from fieldscribe.targets.vectors.frames import Script, words_in_bytes
 
 KINDS = {
     "base": "base:word given:pairs? script:script? status:word start:int? last:int?",
@@ -26,31 +25,30 @@ _Held = dict[int, int]
 class _Script:
     """The exchanges with a unit that holds some words, and refuses to read others."""
 
-    def __init__(self, profile: Profile, framing: str, unit: int, held: Mapping[int, int]) -> None:
-        self.profile, self.framing, self.unit, self.held = profile, framing, unit, held
+    def __init__(self, wire: ModbusWire, held: Mapping[int, int]) -> None:
+        self.wire, self.held = wire, held
         self.steps: Script = []
 
     def read(self, function: int, address: int, count: int) -> tuple[int, ...] | None:
         """Add a read, and return its words; None if it is refused."""
-        transaction = 1 if self.framing == "tcp" else 0
-        _, sent = build(self.profile, self.framing, Request(self.unit, function, address, count, (), transaction))
+        request = Request(self.wire.unit, function, address, count, (), self.wire.transaction)
+        _, sent = self.wire.build(request)
         words = [self.held.get(each) for each in range(address, address + count)]
         known = [word for word in words if word is not None]
-        answer = bytes((function, 2 * count)) + b"".join(word.to_bytes(2, "big") for word in known)
+        answer = bytes((function, 2 * count)) + words_in_bytes(known)
         if len(known) < count:
             answer = bytes((function | 0x80, _REFUSED))
-        self.steps.append((sent, frame(self.framing, self.unit, transaction, answer)))
+        self.steps.append((sent, self.wire.frame(request, answer)))
         return tuple(known) if len(known) == count else None
 
 
 class BaseVectors:
     """The vectors of the bases of a device, over one framing."""
 
-    def __init__(self, lines: Lines, device: Device, profile: Profile, framing: str, unit: int) -> None:
-        self.lines, self.device = lines, device
-        self._unit = profile, framing, unit
-        self._given = {each.name: each for each in device.given}
-        self._length = max((max(each.addresses, default=0) for each in device.points if each.base), default=0)
+    def __init__(self, wire: ModbusWire) -> None:
+        self.wire, self.lines, self.device = wire, wire.lines, wire.device
+        self._given = {each.name: each for each in wire.device.given}
+        self._length = max((max(each.addresses, default=0) for each in wire.device.points if each.base), default=0)
 
     def add(self) -> None:
         """Add the vectors of each base from which a word can be read."""
@@ -74,7 +72,7 @@ class BaseVectors:
         given = [self._given[name] for name, _ in base.terms]
         for numbers in ({each.name: each.low for each in given}, {each.name: each.high for each in given}):
             start = base.at(numbers)
-            script = _Script(*self._unit, {start + point.addresses[0]: 1})
+            script = _Script(self.wire, {start + point.addresses[0]: 1})
             self._read(script, point, start)
             self.lines.add("base", base.name, numbers, script.steps, "ok", start, _LAST - start)
             for each in given:
@@ -84,14 +82,14 @@ class BaseVectors:
 
     def _add_found(self, found: Found, base: Base, block: int, point: Point, *, many: bool) -> None:
         for held in _devices(found, base, block, self._length, many=many):
-            script = _Script(*self._unit, held)
+            script = _Script(self.wire, held)
             status, place = _search(script, found, base, block)
             if place:
                 self._read(script, point, place[0])
             kind, given = ("base", (None,)) if base.starts_block else ("base_behind", ())
             self.lines.add(kind, base.name, *given, script.steps, status, *place)
         if many:
-            cut = _Script(*self._unit, {})
+            cut = _Script(self.wire, {})
             cut.read(SPACES[found.space].read, found.places[0], len(found.words))
             ((sent, answer),) = cut.steps
             self.lines.add("base", base.name, None, [(sent, answer[:-1])], "short_frame")

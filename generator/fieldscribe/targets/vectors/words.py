@@ -1,84 +1,11 @@
-"""Vectors of points whose raw number is the value (integers, enums, flags, bits), names and bit groups."""
+"""Vectors of names, special codes, flags, bit groups and words."""
 
 from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.model import Shape
 from fieldscribe.targets.vectors import samples
-from fieldscribe.targets.vectors.lines import Lines, text
-from fieldscribe.targets.vectors.oracle import INT64, Oracle, admit, as_pattern, as_raw, code_of, quantity_at_most
+from fieldscribe.targets.vectors.lines import Lines
+from fieldscribe.targets.vectors.oracle import as_pattern, as_raw, code_of
 from fieldscribe.targets.vectors.samples import PointEncoding
-
-
-def whole(lines: Lines, oracle: Oracle, encoding: PointEncoding, *, deep: bool) -> None:
-    """Add vectors of decoding, encoding and checking a point without a scale, for each setting of other points."""
-    shape = encoding.shape
-    for settings in samples.settings(oracle, encoding, deep=deep):
-        limits = oracle.limits(shape, encoding.allowed, settings)
-        if settings:
-            lines.set("with", settings)
-        if isinstance(limits, str):
-            raw = quantity_at_most(shape, samples.limits_of(encoding.allowed)[0].greatest)
-            if shape.writable:
-                lines.add("encode_count", raw, limits)
-                lines.add("check", raw, limits)
-        else:
-            _convert(lines, encoding, limits, deep=deep)
-
-
-def _convert(lines: Lines, encoding: PointEncoding, limits: samples.Limits, *, deep: bool) -> None:
-    shape = encoding.shape
-    top = INT64 if shape.width > 16 else 1 << 31
-    checked = _raws(encoding, samples.raws_to_check(shape, limits, deep=deep), deep=deep)
-    decoded = _raws(encoding, samples.raws_to_decode(shape, limits, deep=deep), deep=deep)
-    if deep:
-        checked = decoded = {**checked, **decoded}
-    if shape.readable:
-        lines.add_written("decode_count", [_decoded(shape, raw) for raw in decoded if raw < INT64])
-    if not shape.writable:
-        return
-    ends = (shape.least - 1, shape.greatest + 1, top - 1, -top) if deep else ()
-    counts = {**decoded, **samples.edges(limits if deep else samples.limits_to_try(limits)), **dict.fromkeys(ends)}
-    fitting = [count for count in counts if -top <= count < top]
-    lines.add_written("encode_count", [_encoded(encoding, count, limits) for count in fitting])
-    lines.add_written("check", [f"check\t{raw}\t{_checked(encoding, raw, limits)}" for raw in checked])
-
-
-def _decoded(shape: Shape, raw: int) -> str:
-    """Return the line with status and count."""
-    code = code_of(shape, raw) if shape.specials else None
-    if code is not None:
-        return f"decode_count\t{raw}\tspecial\t-\t{text(code.name)}"
-    return f"decode_count\t{raw}\tok\t{raw}"
-
-
-def _encoded(encoding: PointEncoding, count: int, limits: samples.Limits) -> str:
-    """Return the line with the status of a count, and its raw number if it may be written."""
-    put = count if encoding.shape.fixed is None else with_fixed(encoding, count)
-    status = admit(encoding.shape, put, limits, by_value=True)
-    return f"encode_count\t{count}\tok\t{put}" if status == "ok" else f"encode_count\t{count}\t{status}"
-
-
-def _checked(encoding: PointEncoding, raw: int, limits: samples.Limits) -> str:
-    """Return the status of a raw number that is written directly."""
-    shape = encoding.shape
-    fits = shape.fixed is None or with_fixed(encoding, raw) == raw or code_of(shape, raw) is not None
-    return admit(shape, raw, limits) if fits else "out_of_range"
-
-
-def _raws(encoding: PointEncoding, raws: list[int], *, deep: bool) -> dict[int, None]:
-    """Return raw numbers, also with the constant bits set, numbers of the enum (if deep, all), and each flag alone."""
-    shape = encoding.shape
-    fixed = () if shape.fixed is None else (with_fixed(encoding, raw) for raw in raws)
-    entries = () if shape.enum is None else shape.enum.entries if deep else shape.enum.entries[-1:]
-    flags = (as_raw(shape, (1 << flag.width) - 1 << flag.low) for flag in shape.flags)
-    return dict.fromkeys((*raws, *fixed, *(entry.raw for entry in entries), *flags))
-
-
-def with_fixed(encoding: PointEncoding, raw: int) -> int:
-    """Return a raw number with the constant bits set; unchanged if the type cannot hold it."""
-    shape, fixed = encoding.shape, encoding.shape.fixed
-    if fixed is None or encoding.bits is not None or not shape.least <= raw <= shape.greatest:
-        return raw
-    return as_raw(shape, raw & ~fixed.mask | fixed.bits)
 
 
 def names(lines: Lines, shape: Shape, *, deep: bool) -> None:

@@ -1,0 +1,208 @@
+"""Vectors of numbers: raw numbers, their values in binary64, and their counts of 10^-decimals units."""
+
+from collections.abc import Callable, Iterable, Iterator
+from math import inf, isfinite, isnan, nan, nextafter
+from typing import Any
+
+from fieldscribe.model import Shape
+from fieldscribe.targets.vectors import samples
+from fieldscribe.targets.vectors.lines import Lines, real, text
+from fieldscribe.targets.vectors.oracle import (
+    INT64,
+    WHOLE,
+    Oracle,
+    Ratio,
+    admit,
+    code_of,
+    half_away,
+    quantity_at_most,
+    quotient,
+)
+from fieldscribe.targets.vectors.samples import PointEncoding
+
+INT32 = 1 << 31
+
+Asked = tuple[str, Callable[[Any], str], Iterable[Any]]
+"""A kind of vector, the function that answers what is asked, and what is asked."""
+
+
+def numbers(lines: Lines, oracle: Oracle, encoding: PointEncoding, *, deep: bool) -> None:
+    """Add vectors of a number for each setting of the points that it needs; fewer unless `deep`."""
+    shape, full = encoding.shape, deep
+    kinds = _kinds(shape)
+    for settings in samples.settings(oracle, encoding, deep=deep):
+        if settings:
+            lines.set("with", settings)
+        ratio = oracle.ratio(shape, settings) if shape.form == "scaled" else WHOLE
+        limits = oracle.limits(shape, encoding.allowed, settings)
+        if isinstance(ratio, str):
+            asked = _without_rule(shape, ratio)
+        elif isinstance(limits, str):
+            asked = _without_limits(encoding, ratio, limits)
+        else:
+            asked = _Numbers(encoding, ratio, limits).asked(deep=deep, full=full)
+            full = full and shape.form != "scaled"
+        for kind, answer, samples_of_kind in asked:
+            if kinds[kind]:
+                lines.add_answers(kind, answer, samples_of_kind, real if kind == "encode" else str)
+
+
+def _kinds(shape: Shape) -> dict[str, bool]:
+    """Return the kinds of vectors, and whether a number has them: without a scale, its count is the raw number."""
+    scaled, counted = shape.form == "scaled", shape.form != "scaled" or shape.decimals is not None
+    return {
+        "decode": shape.readable and scaled,
+        "decode_count": shape.readable and counted,
+        "encode": shape.writable and scaled and shape.encodes_values,
+        "encode_count": shape.writable and counted,
+        "check": shape.writable,
+    }
+
+
+def _without_rule(shape: Shape, status: str) -> Iterator[Asked]:
+    """Yield what is asked under a setting under which nothing can be computed."""
+    raw = quantity_at_most(shape, 1)
+    for kind, asked in (("decode", raw), ("decode_count", raw), ("encode", 1.0), ("encode_count", 1)):
+        yield kind, lambda _: status, (asked,)
+    yield "encode", lambda _: "not_a_number", (nan,)
+
+
+def _without_limits(encoding: PointEncoding, ratio: Ratio, status: str) -> Iterator[Asked]:
+    """Yield what is asked under a setting under which only the limits cannot be computed.
+
+    It is inside the outer bounds of the limit, so that only the limit itself can refuse it.
+    """
+    shape = encoding.shape
+    raw = quantity_at_most(shape, samples.limits_of(encoding.allowed)[0].greatest)
+    yield "encode", lambda _: status, (quotient(ratio.numerator(raw), ratio.denominator),)
+    yield "encode_count", lambda _: status, (ratio.count_of_raw(raw, shape.decimals or 0),)
+    yield "check", lambda _: status, (raw,)
+
+
+def code_answer(shape: Shape, raw: int) -> str:
+    """Return what decoding answers for a special code; empty for any other raw number."""
+    code = code_of(shape, raw) if shape.specials else None
+    return "" if code is None else f"special\t-\t{text(code.name)}"
+
+
+class _Numbers:
+    """The right answers for an encoding under one setting that allows computing."""
+
+    def __init__(self, encoding: PointEncoding, ratio: Ratio, limits: samples.Limits) -> None:
+        self.encoding, self.shape, self.ratio, self.limits = encoding, encoding.shape, ratio, limits
+        self.under, self.tens = ratio.denominator, 10 ** (encoding.shape.decimals or 0)
+        self.ends = [self._count(raw) for raw in (encoding.shape.least, encoding.shape.greatest)]
+
+    def asked(self, *, deep: bool, full: bool) -> Iterator[Asked]:
+        """Yield what is asked; `full` for the first setting of the first encoding that is computed in this way."""
+        encoding, shape, limits = self.encoding, self.shape, self.limits
+        decoded = samples.raws_to_decode(encoding, limits, deep=deep)
+        checked = samples.raws_to_check(encoding, limits, deep=deep)
+        edges = samples.edges(limits if deep else samples.limits_to_try(limits))
+        counted = [*edges, *samples.codes(shape)] if deep else [*edges]
+        if shape.form != "scaled":
+            if deep:
+                decoded = checked = [*checked, *decoded]
+                counted += (shape.least - 1, shape.greatest + 1)
+            counted += decoded
+        yield "decode", self._decode, [*decoded, *samples.raws_telling_division(shape, self.ratio)]
+        yield "decode_count", self._decode_count, [*decoded, *self._widest()]
+        yield "encode", self._encode, self._values(counted, deep=deep, full=full)
+        yield "encode_count", self._encode_count, self._counts(counted, deep=deep, full=full)
+        if full or not deep or encoding.allowed.arguments:
+            yield "check", self._check, checked
+
+    def _decode(self, raw: int) -> str:
+        """Return status and value; empty if languages may differ in the last place."""
+        shape = self.shape
+        if shape.specials and (special := code_answer(shape, raw)):
+            return special
+        if self._is_too_large(raw):
+            return "overflow"
+        is_exact = not (shape.scale_arguments and shape.encodes_values) or self.ratio.divides_exactly(raw)
+        return f"ok\t{real(self.ratio.numerator(raw) / self.under)}" if is_exact else ""
+
+    def _decode_count(self, raw: int) -> str:
+        """Return status and count; empty for an integer of 64 bits whose sign languages see differently."""
+        shape, count = self.shape, self._count(raw)
+        if shape.specials and (special := code_answer(shape, raw)):
+            return special
+        if -INT64 <= count < INT64 and not self._is_too_large(raw):
+            return f"ok\t{count}"
+        return "overflow" if shape.form == "scaled" else ""
+
+    def _encode(self, value: float) -> str:
+        if not isfinite(value):
+            return "not_a_number" if isnan(value) else "out_of_range"
+        return self._put(self.ratio.raw_of_float(value))
+
+    def _encode_count(self, count: int) -> str:
+        return self._put(self._raw_of_count(count))
+
+    def _put(self, raw: int | None) -> str:
+        """Return the status of a raw number that was computed, and the raw number if it may be written."""
+        if raw is None:
+            return "out_of_range"
+        put = raw if self.shape.fixed is None else self.encoding.with_fixed(raw)
+        status = admit(self.shape, put, self.limits, by_value=True)
+        return f"ok\t{put}" if status == "ok" else status
+
+    def _check(self, raw: int) -> str:
+        """Return the status of a raw number that is written directly."""
+        shape = self.shape
+        fits = shape.fixed is None or self.encoding.with_fixed(raw) == raw or code_of(shape, raw) is not None
+        return admit(shape, raw, self.limits) if fits else "out_of_range"
+
+    def _count(self, raw: int) -> int:
+        return half_away(self.ratio.numerator(raw) * self.tens, self.under)
+
+    def _raw_of_count(self, count: int) -> int:
+        return self.ratio.raw_of_count(count, self.shape.decimals or 0)
+
+    def _is_too_large(self, raw: int) -> bool:
+        """Return True if a raw number is too large to compute with."""
+        most = self.shape.most_raw
+        return most is not None and abs(raw) > most
+
+    def _values(self, raws: Iterable[int], *, deep: bool, full: bool) -> Iterator[float]:
+        """Yield the values of raw numbers, those a quarter of a step beyond the limits, halves, and no numbers."""
+        ratio, low, high = self.ratio, self.limits[0][0], self.limits[-1][1]
+        step = ratio.numerator(1) - ratio.numerator(0)
+        quarters = [4 * ratio.numerator(raw) for raw in raws]
+        quarters += [4 * ratio.numerator(low) - step, 4 * ratio.numerator(high) + step]
+        yield from (quotient(over, 4 * self.under) for over in quarters)
+        for half in samples.halves(ratio, self.limits) if deep else ():
+            yield from (half, nextafter(half, 0.0))
+        if full:
+            yield from (-0.0, nan, inf, -inf, 1e300)
+
+    def _counts(self, raws: Iterable[int], *, deep: bool, full: bool) -> Iterator[int]:
+        """Yield the counts of raw numbers, around halves, and the ends of integers, as far as they hold the type."""
+        narrow = (
+            all(-INT32 <= end < INT32 for end in self.ends) if self.shape.form == "scaled" else self.shape.width <= 16
+        )
+        edge = INT32 if narrow else INT64  # the first count beyond the integers that hold all counts of the type
+        counts = [*map(self._count, raws), *(self._halves() if deep else ())]
+        if full:
+            counts += [INT32 - 1, -INT32, edge - 1, -edge]
+        yield from (count for count in counts if -edge <= count < edge)
+
+    def _halves(self) -> Iterator[int]:
+        """Yield the counts around the halves at the outer limits; none where each count is a raw number."""
+        ratio, power = self.ratio, self.tens
+        if self.under == power * abs(ratio.den) * ratio.under:
+            return
+        low, high = self.limits[0][0], self.limits[-1][1]
+        for raw in (low - 1, low, high - 1, high):
+            over = (ratio.numerator(raw) + ratio.numerator(raw + 1)) * power
+            below, rest = divmod(over, 2 * self.under)
+            yield from (below, below + 1) if rest else (below - 1, below + 1, below)
+
+    def _widest(self) -> list[int]:
+        """Return the raw numbers around the first counts of more than 64 bits."""
+        shape = self.shape
+        if all(-INT64 <= end < INT64 for end in self.ends):
+            return []
+        last = (self._raw_of_count(count) for count in (INT64 - 1, -INT64))
+        raws = (raw + more for raw in last for more in (-1, 0, 1))
+        return [raw for raw in raws if shape.least <= raw <= shape.greatest]
