@@ -18,7 +18,7 @@ from typing import Any
 
 from fieldscribe.diagnostics import Report, Span
 from fieldscribe.language.nodes import Map
-from fieldscribe.language.numbers import NumberError, parse_integer
+from fieldscribe.language.numbers import integer_in
 from fieldscribe.model import Entry as EnumEntry
 from fieldscribe.model.numbers import Titles
 from fieldscribe.pasted_numbers import number_of
@@ -102,7 +102,7 @@ def _distinct(titles: Titles) -> Iterable[str]:
 
 
 def _enum(kind: str, entries: Iterable[EnumEntry], listed: Map | None, draft: PointFacts) -> Iterator[Text]:
-    keys = {_number(key): key for key in listed or ()}
+    keys = {integer_in(key): key for key in listed or ()}
     for entry in entries:
         key = keys.get(entry.raw)
         place = draft.span if listed is None or key is None else partial(listed.key_span, key)
@@ -143,7 +143,7 @@ def _codes(device: str, subject: Analysis) -> Iterator[Entry]:
     bus = subject.scope.bus
     for codes in subject.scope.family.codes:
         listed = None if bus is None else bus.get(codes.section)
-        keys = {_number(key): key for key in listed or ()}
+        keys = {integer_in(key): key for key in listed or ()}
         for code in subject.bus.codes(codes.section):
             heading = line(f"{codes.kind} {keys.get(code.number, code.number)} {code.name}: {title_text(code.title)}")
             place = subject.scope.header.span
@@ -153,13 +153,6 @@ def _codes(device: str, subject: Analysis) -> Iterator[Entry]:
             texts += [Text("title", text, place) for text in _distinct(code.title)]
             texts.append(Text("number", str(code.number), place, code.number))
             yield Entry(device, codes.kind, code.name, None, heading, texts, code.number)
-
-
-def _number(key: str) -> int | None:
-    try:
-        return parse_integer(key)
-    except NumberError:
-        return None
 
 
 @dataclass(frozen=True, slots=True)

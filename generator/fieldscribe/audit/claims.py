@@ -12,7 +12,7 @@ from typing import Any, NamedTuple, TypeAlias
 from fieldscribe.audit.manual import letters_of
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.nodes import Map, Seq
-from fieldscribe.language.numbers import NumberError, parse_integer, parse_number
+from fieldscribe.language.numbers import number_in, parse_integer
 from fieldscribe.model import About
 
 _LITERAL = re.compile(
@@ -225,10 +225,5 @@ def numbers_in(value: Any) -> list[Fraction]:
         return [number for item in value.values() for number in numbers_in(item)]
     if isinstance(value, Seq | list | tuple):
         return [number for item in value for number in numbers_in(item)]
-    numbers = []
-    for literal in _LITERAL.findall(str(value).replace("..", " ")):
-        try:
-            numbers.append(parse_number(literal))
-        except NumberError:
-            continue
-    return numbers
+    literals = _LITERAL.findall(str(value).replace("..", " "))
+    return [number for literal in literals if (number := number_in(literal)) is not None]

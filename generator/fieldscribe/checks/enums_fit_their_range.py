@@ -2,7 +2,7 @@
 
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.nodes import Map
-from fieldscribe.language.numbers import is_whole_number, parse_integer
+from fieldscribe.language.numbers import integer_in
 from fieldscribe.model import Point
 from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.points import ResolvedPoint
@@ -63,6 +63,5 @@ def _entries(analysis: Analysis, resolved: ResolvedPoint) -> None:
 
 def _place(resolved: ResolvedPoint, number: int) -> Span:
     node = resolved.facts.get("enum")
-    keys = filter(is_whole_number, node) if isinstance(node, Map) else ()
-    key = next((key for key in keys if parse_integer(key) == number), None)
+    key = next((key for key in node if integer_in(key) == number), None) if isinstance(node, Map) else None
     return resolved.facts.span("enum") if key is None else node.key_span(key)

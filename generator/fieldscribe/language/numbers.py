@@ -6,6 +6,7 @@ could be read in two ways (`4E20`, `1,5`, `1FF`) are refused with a hint.
 
 import re
 from collections.abc import Callable
+from contextlib import suppress
 from fractions import Fraction
 from functools import lru_cache
 
@@ -62,13 +63,18 @@ def plain_number(value: object) -> int | None:
     return int(value[:-1], 16) if _HEX_DIGITS.fullmatch(value) else None
 
 
-def is_whole_number(text: str) -> bool:
-    """Return True if a text is a whole number in some notation."""
-    try:
-        parse_integer(text)
-    except NumberError:
-        return False
-    return True
+def number_in(value: object) -> Fraction | None:
+    """Return the number of a YAML value in some notation; None for any other value."""
+    with suppress(NumberError):
+        return parse_number(str(value))
+    return None
+
+
+def integer_in(value: object) -> int | None:
+    """Return the whole number of a YAML value in some notation; None for any other value."""
+    with suppress(NumberError):
+        return parse_integer(str(value))
+    return None
 
 
 def _decimal(text: str, match: re.Match[str]) -> Fraction:

@@ -12,7 +12,7 @@ from typing import Any
 
 from fieldscribe.language.formula.suggestions import exact_scale
 from fieldscribe.language.nodes import Map, Seq
-from fieldscribe.language.numbers import NumberError, parse_number
+from fieldscribe.language.numbers import number_in
 
 _LONGEST = 200
 _NUMBER = r"[-+]?[0-9][0-9A-Fa-fxX]*(?:\.[0-9]+)?[hH]?"
@@ -357,11 +357,7 @@ def key_suggestion(key: str, value: Any, known: Collection[str]) -> str | None:
 def suggest_interval(text: str) -> str | None:
     """Return `0-100`, `0 to 100` or `[0:100]` in our notation; None if it is no interval."""
     ends = _INTERVAL.fullmatch(text.strip()) if len(text) <= _LONGEST else None
-    if ends is None:
-        return None
-    try:
-        parse_number(ends[1]), parse_number(ends[2])
-    except NumberError:
+    if ends is None or number_in(ends[1]) is None or number_in(ends[2]) is None:
         return None
     return f"{ends[1]}..{ends[2]}"
 

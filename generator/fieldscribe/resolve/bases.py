@@ -5,7 +5,7 @@ from dataclasses import replace
 from math import prod
 
 from fieldscribe.language.nodes import Map
-from fieldscribe.language.numbers import NumberError, parse_integer
+from fieldscribe.language.numbers import integer_in
 from fieldscribe.model import Base, Found, Given
 from fieldscribe.resolve.scope import Scope, titles
 from fieldscribe.resolve.values import FactError, formula_multiples, integer, interval
@@ -136,19 +136,12 @@ def _in_block(scope: Scope, group: Map, formula: str, start: Base) -> Base:
 def _counting_points(scope: Scope, group: Map) -> Iterator[tuple[str, int]]:
     """Yield the points of the same block that can count words, with their addresses: whole words at fixed places."""
     for other in scope.groups:
-        if _whole(other.get("block")) == _whole(group["block"]) and other.keys().isdisjoint(("base", "addressing")):
+        is_of_block = integer_in(other.get("block")) == integer_in(group["block"])
+        if is_of_block and other.keys().isdisjoint(("base", "addressing")):
             for row in other["points"]:
-                at = _whole(row.get("at"))
+                at = integer_in(row.get("at"))
                 if at is not None and row.get("type", "u16") == "u16" and row.keys().isdisjoint(_NO_COUNTS):
                     yield str(row["name"]), at
-
-
-def _whole(value: object) -> int | None:
-    """Return a whole number in any notation; None for anything else."""
-    try:
-        return parse_integer(str(value))
-    except NumberError:
-        return None
 
 
 def _by_formula(scope: Scope, group: Map, formula: str) -> Base:

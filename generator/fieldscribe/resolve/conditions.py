@@ -28,7 +28,7 @@ from fieldscribe.language.formula.conditions import (
 from fieldscribe.language.formula.normal import Affine
 from fieldscribe.language.formula.suggestions import suggest_condition
 from fieldscribe.language.formula.syntax import FormulaError
-from fieldscribe.language.numbers import NumberError, parse_integer
+from fieldscribe.language.numbers import integer_in
 from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.scales import Scales
 from fieldscribe.resolve.scope import Scope
@@ -210,10 +210,8 @@ def _by_property(scope: Scope, comparison: Comparison) -> conditions.Comparison:
 
 def _whole(stated: Fraction | str | int) -> int | str:
     """Return a property or a constant as a whole number, else as a word."""
-    try:
-        return parse_integer(str(stated))
-    except NumberError:
-        return str(stated)
+    number = integer_in(stated)
+    return str(stated) if number is None else number
 
 
 def _raw(scope: Scope, used: PointFacts, rule: Affine, constant: Constant, written: Written) -> Fraction:

@@ -10,7 +10,7 @@ from fieldscribe.families import sections_of_codes
 from fieldscribe.language.keys import keys_of
 from fieldscribe.language.keys.places import POINT
 from fieldscribe.language.nodes import Map, Seq
-from fieldscribe.language.numbers import NumberError, parse_number
+from fieldscribe.language.numbers import number_in
 from fieldscribe.model import About, Bus, Erratum, Named
 from fieldscribe.resolve.scope import Scope, source_of
 from fieldscribe.resolve.symbols import SymbolTable
@@ -206,8 +206,5 @@ def _items(value: Any) -> list[Any]:
 def _number(value: Any) -> Fraction | None:
     """Return a number in any notation as a fraction; None for other texts."""
     if isinstance(value, str):
-        try:
-            return parse_number(value)
-        except NumberError:
-            return None
+        return number_in(value)
     return Fraction(value) if value is not None else None

@@ -8,7 +8,7 @@ from typing import Any
 from fieldscribe.arithmetic.codec import CodecError, encode, setting_of
 from fieldscribe.families import families
 from fieldscribe.language.nodes import Map
-from fieldscribe.language.numbers import is_whole_number
+from fieldscribe.language.numbers import integer_in
 from fieldscribe.model import Bus, Frame, Named, Point
 from fieldscribe.resolve.bus import reader_of
 from fieldscribe.resolve.errata import PrintedFact
@@ -168,7 +168,7 @@ class StatedValues:
         if value in known:
             return known[value]
         span = self.values.span(word)
-        if known and not is_whole_number(value):
+        if known and integer_in(value) is None:
             self.scope.unknown("entry", value, span, known)
             raise FactError
         if point.text is not None:

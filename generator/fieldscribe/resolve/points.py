@@ -11,7 +11,7 @@ from fieldscribe.conditions import Condition
 from fieldscribe.language.keys import keys_of
 from fieldscribe.language.keys.places import SOURCE
 from fieldscribe.language.nodes import Map
-from fieldscribe.language.numbers import NumberError, parse_number
+from fieldscribe.language.numbers import number_in
 from fieldscribe.language.units import unit_hint
 from fieldscribe.model import Linear, Point, Shape, Source, Terms, Unit
 from fieldscribe.resolve.addresses import Places
@@ -305,7 +305,7 @@ def _default_raw(scope: Scope, facts: PointFacts, shape: Shape) -> int | None:
     default, span, enum = facts.get("default"), facts.span("default"), shape.enum
     if facts.floating:
         message = "`default` is in raw numbers, which are bit patterns here"
-        stated = default if not isinstance(default, str) or _is_number(default) else "1.5"
+        stated = default if not isinstance(default, str) or number_in(default) is not None else "1.5"
         scope.report.error("float-fact", message, span, f"write the value, as in `default_in_units: {stated}`")
         return None
     if default in (named := _named_numbers(shape)):
@@ -316,7 +316,7 @@ def _default_raw(scope: Scope, facts: PointFacts, shape: Shape) -> int | None:
         hint = f"write a number, or one of {', '.join(entry.name for entry in enum.entries[:_MOST_NAMES])}"
         scope.report.error("bad-number", f"`{default}` is no name of this enum", span, hint)
         return None
-    if isinstance(default, str) and "." in default and _is_number(default):
+    if isinstance(default, str) and "." in default and number_in(default) is not None:
         message = f"`{default}` has a decimal point, and `default` is in raw numbers"
         scope.report.error("bad-number", message, span, f"write `default_in_units: {default}`, or the raw number")
         return None
@@ -326,14 +326,6 @@ def _default_raw(scope: Scope, facts: PointFacts, shape: Shape) -> int | None:
 def _named_numbers(shape: Shape) -> dict[str, int]:
     named = {special.name: special.low for special in shape.specials if special.low == special.high}
     return named | {entry.name: entry.raw for entry in (() if shape.enum is None else shape.enum.entries)}
-
-
-def _is_number(text: str) -> bool:
-    try:
-        parse_number(text)
-    except NumberError:
-        return False
-    return True
 
 
 def _rule(facts: PointFacts, shape: Shape) -> Linear | None:

@@ -13,7 +13,7 @@ from fieldscribe.language.formula.normal import evaluate
 from fieldscribe.language.formula.parser import parse_expression
 from fieldscribe.language.formula.syntax import FormulaError
 from fieldscribe.language.nodes import Map
-from fieldscribe.language.numbers import NumberError, parse_integer
+from fieldscribe.language.numbers import integer_in, parse_integer
 from fieldscribe.model import Bus, Code, Message, Point, Role
 from fieldscribe.resolve.bus import FamilyReader, Messages
 from fieldscribe.resolve.scope import Scope, source_of, titles
@@ -249,9 +249,8 @@ def _field(text: str, count: int) -> list[Role] | tuple[str, str]:
 
 
 def _constant(text: str, count: int) -> list[Role] | tuple[str, str]:
-    try:
-        number = parse_integer(text)
-    except NumberError:
+    number = integer_in(text)
+    if number is None:
         return f"`{shortened(text)}` is not something that a byte can hold", _HOW
     if not 0 <= number < 1 << 8 * count:
         return f"{text} does not fit into {_bytes(count)}", f"0..{(1 << 8 * count) - 1:X}h does"
