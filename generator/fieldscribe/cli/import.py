@@ -1,13 +1,18 @@
 # ruff: noqa: N999  # a command's module has the command's name
-"""`fieldscribe import`: draft a description from a file of another kind; each kind has a module `import_<kind>`."""
+"""`fieldscribe import`: draft a description from a file of another kind; modules `import_…` know the kinds."""
 
 import re
+import sys
 from argparse import ArgumentParser, Namespace
-from types import ModuleType
+from collections.abc import Callable
+from typing import NamedTuple
 
-from fieldscribe.cli import import_dbc, import_sunspec, import_table, import_wb
-from fieldscribe.cli.common import StopError, some_path
+from fieldscribe.cli import import_dbc, import_table, import_whole
+from fieldscribe.cli.common import Parser, StopError, some_path, write_draft
+from fieldscribe.cli.terminal import FINDINGS, FINE
 from fieldscribe.importing.headings import ROLES
+from fieldscribe.importing.readers import UnreadableError
+from fieldscribe.report import visible
 
 EXAMPLE = f"""examples:
   fieldscribe import table registers.csv --device heat_pump --out heat_pump/device.yaml
@@ -26,13 +31,29 @@ Models of SunSpec and a template make a whole device; the last line on standard 
 
 ends with 1 when the file holds no table of points (no model, no template), has no such column, or cannot be read"""
 
-KINDS: dict[str, tuple[ModuleType, str]] = {
-    "dbc": (import_dbc, "CAN databases"),
-    "table": (import_table, "tables of CSV, TSV, XLSX, Markdown, HTML, or the text of a manual"),
-    "sunspec": (import_sunspec, "models of SunSpec: a file `model_103.json`, or a folder of them"),
-    "wb": (import_wb, "a device template of wb-mqtt-serial: `.json`, `.json.jinja`"),
+
+class _Kind(NamedTuple):
+    """A kind of file: what returns a draft with the lines of a report, and what adds its own options."""
+
+    reads: str
+    drafted: Callable[[Namespace], tuple[str, list[str]] | None]
+    add_arguments: Callable[[Parser], None] = lambda _: None
+
+
+KINDS = {
+    "dbc": _Kind("CAN databases", import_dbc.from_database, import_dbc.add_arguments),
+    "table": _Kind(
+        "tables of CSV, TSV, XLSX, Markdown, HTML, or the text of a manual",
+        import_table.from_tables,
+        import_table.add_arguments,
+    ),
+    "sunspec": _Kind(
+        "models of SunSpec: a file `model_103.json`, or a folder of them",
+        import_whole.from_models,
+        import_whole.add_arguments,
+    ),
+    "wb": _Kind("a device template of wb-mqtt-serial: `.json`, `.json.jinja`", import_whole.from_template),
 }
-"""The module of each kind of file, with its help text. It has `add_arguments` for its own options, and `run`."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -42,27 +63,36 @@ def add_arguments(parser: ArgumentParser) -> None:
     add("file", type=some_path, metavar="FILE", help="the file (or folder) to read")
     add("--device", metavar="ID", help="write a whole device of this name")
     add("--out", type=some_path, metavar="FILE", help="where to write (default: standard output)")
-    for kind, (module, reads) in KINDS.items():
-        module.add_arguments(parser.add_argument_group(f"import {kind}", reads))
+    for name, kind in KINDS.items():
+        kind.add_arguments(parser.add_argument_group(f"import {name}", kind.reads))
 
 
 def run(arguments: Namespace) -> int:
     """Import, and return the exit code."""
-    for kind, (module, _) in KINDS.items():
-        if kind != arguments.kind:
-            _refuse_options(kind, module, arguments)
+    for name, kind in KINDS.items():
+        if name != arguments.kind:
+            _refuse_options(name, kind, arguments)
     if arguments.device is not None and not re.fullmatch(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)*", arguments.device[:80]):
         raise StopError(f"--device: `{arguments.device[:80]}` is no name", "names have a to z, digits and single _")
     if arguments.out is not None and arguments.out.exists():
         raise StopError(f"`{arguments.out}` is there already", "name another file, or remove it first")
-    code: int = KINDS[arguments.kind][0].run(arguments)
-    return code
+    try:
+        drafted = KINDS[arguments.kind].drafted(arguments)
+    except UnreadableError as error:
+        where = f"{arguments.file}:{error.line}" if error.line else str(arguments.file)
+        raise StopError(f"{where}: {error.message}", error.hint, FINDINGS) from error
+    if drafted is not None:
+        text, report = drafted
+        write_draft(text, arguments.out)
+        for line in report:
+            print(visible(line), file=sys.stderr)
+    return FINE
 
 
-def _refuse_options(kind: str, module: ModuleType, arguments: Namespace) -> None:
+def _refuse_options(name: str, kind: _Kind, arguments: Namespace) -> None:
     """Raise StopError for an option that belongs to another kind."""
     parser = ArgumentParser(add_help=False)
-    module.add_arguments(parser)
+    kind.add_arguments(parser)
     for action in parser._actions:  # argparse offers no other way
         if getattr(arguments, action.dest) != action.default:
-            raise StopError(f"{action.option_strings[0]} is for `import {kind}`", f"`import {arguments.kind}` has none")
+            raise StopError(f"{action.option_strings[0]} is for `import {name}`", f"`import {arguments.kind}` has none")

@@ -1,17 +1,15 @@
 """`fieldscribe import dbc`: draft a description from a CAN database."""
 
-import sys
 from argparse import Namespace
 from hashlib import sha256
 from typing import Any
 
-from fieldscribe.cli.common import Parser, StopError, write_draft
-from fieldscribe.cli.terminal import FINDINGS, FINE
+from fieldscribe.cli.common import Parser, StopError
+from fieldscribe.cli.terminal import FINDINGS
 from fieldscribe.importing import compilable
 from fieldscribe.importing.dbc import DbcDraft
 from fieldscribe.importing.draft_text import Document, Head
 from fieldscribe.importing.readers import MOST_BYTES, UnreadableError
-from fieldscribe.report import visible
 from fieldscribe.safe_files import read_regular
 from fieldscribe.text import line
 
@@ -21,14 +19,11 @@ def add_arguments(parser: Parser) -> None:
     parser.add_argument("--node", metavar="NAME", help="the device: it sends its messages, and receives all others")
 
 
-def run(arguments: Namespace) -> int:
-    """Import, and return the exit code."""
+def from_database(arguments: Namespace) -> tuple[str, list[str]]:
+    """Return the draft of a CAN database, and a report of it. Raises UnreadableError and StopError."""
     data = read_regular(arguments.file, MOST_BYTES).data
-    try:
-        text = text_of(data)
-        drafted = DbcDraft(database_of(text), text, arguments.node)
-    except UnreadableError as error:
-        raise StopError(f"{arguments.file}: {error.message}", error.hint, FINDINGS) from error
+    text = text_of(data)
+    drafted = DbcDraft(database_of(text), text, arguments.node)
     if not drafted.groups:
         raise StopError(f"`{arguments.file}` holds no signals", "a CAN database has messages with signals", FINDINGS)
     document = Document(arguments.file.name, sha256(data).hexdigest(), "database")
@@ -40,10 +35,7 @@ def run(arguments: Namespace) -> int:
         kind="a CAN database",
         bus=drafted.bus(),
     )
-    write_draft(compilable(drafted.groups, head, with_head=arguments.device is not None), arguments.out)
-    for text in drafted.report():
-        print(visible(text), file=sys.stderr)
-    return FINE
+    return compilable(drafted.groups, head, with_head=arguments.device is not None), list(drafted.report())
 
 
 def text_of(data: bytes) -> str:

@@ -4,16 +4,15 @@ import re
 import sys
 from argparse import ArgumentTypeError, Namespace
 from hashlib import sha256
-from pathlib import Path
 
-from fieldscribe.cli.common import Parser, StopError, add_repeated, write_draft
-from fieldscribe.cli.terminal import FINDINGS, FINE
+from fieldscribe.cli.common import Parser, StopError, add_repeated
+from fieldscribe.cli.terminal import FINDINGS
 from fieldscribe.families import FAMILIES, families
 from fieldscribe.importing import Draft, compilable, draft
 from fieldscribe.importing.draft_points import Options
 from fieldscribe.importing.draft_text import Document, Head
 from fieldscribe.importing.headings import ROLES
-from fieldscribe.importing.readers import FORMATS, MOST_BYTES, UnreadableError, read_tables
+from fieldscribe.importing.readers import FORMATS, MOST_BYTES, read_tables
 from fieldscribe.report import visible
 from fieldscribe.safe_files import read_regular
 
@@ -43,18 +42,25 @@ def add_arguments(parser: Parser) -> None:
     add("--list", action="store_true", help="list the tables and their columns, and draft nothing")
 
 
-def run(arguments: Namespace) -> int:
-    """Import, and return the exit code."""
+def from_tables(arguments: Namespace) -> tuple[str, list[str]] | None:
+    """Return the draft of the tables, and no report; None if they are only listed.
+
+    Raises UnreadableError and StopError.
+    """
     _refuse_arguments(arguments)
     names = ("space", "family", "language", "tables", "lines", "base", "is_hex", "address_part", "ranges")
     columns: dict[str, list[str]] = {}
     for role, name in arguments.column:
         columns.setdefault(role, []).append(name)
     options = Options(columns, **{name: getattr(arguments, name) for name in names})
-    drafted = _drafted(arguments.file, options)
+    try:
+        drafted = draft(read_tables(arguments.file), options)
+    except ModuleNotFoundError as error:
+        message = f"`{arguments.file}` needs the extra `import`, which is not installed"
+        raise StopError(message, 'pip install "fieldscribe[import]"') from error
     if arguments.list:
         _print_list(drafted)
-        return FINE
+        return None
     _print_left_out(drafted)
     if not drafted.groups:
         raise _nothing_drafted(arguments, drafted)
@@ -65,8 +71,7 @@ def run(arguments: Namespace) -> int:
         drafted.family.name,
         arguments.language,
     )
-    write_draft(compilable(drafted.groups, head, with_head=arguments.device is not None), arguments.out)
-    return FINE
+    return compilable(drafted.groups, head, with_head=arguments.device is not None), []
 
 
 def _nothing_drafted(arguments: Namespace, drafted: Draft) -> StopError:
@@ -111,18 +116,6 @@ def _refuse_arguments(arguments: Namespace) -> None:
         raise StopError(
             f"--language: `{arguments.language[:80]}` is no code of a language", "write two letters, as `de`"
         )
-
-
-def _drafted(path: Path, options: Options) -> Draft:
-    """Return the draft of a file. Raises StopError if it cannot be read, or has no such column."""
-    try:
-        return draft(read_tables(path), options)
-    except UnreadableError as error:
-        where = f"{path}:{error.line}" if error.line else str(path)
-        raise StopError(f"{where}: {error.message}", error.hint, FINDINGS) from error
-    except ModuleNotFoundError as error:
-        message = f"`{path}` needs the extra `import`, which is not installed"
-        raise StopError(message, 'pip install "fieldscribe[import]"') from error
 
 
 def _print_list(drafted: Draft) -> None:

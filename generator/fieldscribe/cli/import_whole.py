@@ -1,21 +1,19 @@
-"""`fieldscribe import sunspec`: draft the description of a device from models of SunSpec."""
+"""`fieldscribe import sunspec` and `import wb`: draft the description of a whole device from what a program knows."""
 
 import re
-import sys
 from argparse import ArgumentTypeError, Namespace
 
-from fieldscribe.cli.common import Parser, StopError, add_repeated, write_draft
-from fieldscribe.cli.terminal import FINDINGS, FINE
+from fieldscribe.cli.common import Parser, add_repeated
 from fieldscribe.importing import compilable
-from fieldscribe.importing.readers import UnreadableError
-from fieldscribe.importing.sunspec import Imported, draft_models
+from fieldscribe.importing.draft_text import WholeDraft
+from fieldscribe.importing.sunspec import draft_models
 from fieldscribe.importing.sunspec.models import read_models
-from fieldscribe.report import visible
+from fieldscribe.importing.wb import draft
 from fieldscribe.text import counted
 
 
 def add_arguments(parser: Parser) -> None:
-    """Add the options of this kind."""
+    """Add the options of `import sunspec`; `import wb` has none."""
     what = "which models of a folder the device has, as 1,103,120 (default: all)"
     parser.add_argument("--models", type=_numbers, default=(), metavar="N,N", help=what)
     what = "how many elements of a group are described, if the device says how many there are (default: 10)"
@@ -26,17 +24,18 @@ def add_arguments(parser: Parser) -> None:
     add_repeated(parser, "--count", "POINT=N", what, type=_count)
 
 
-def run(arguments: Namespace) -> int:
-    """Import, and return the exit code."""
-    try:
-        models = read_models(arguments.file, arguments.models)
-        name, counts = arguments.device or "sunspec", dict(arguments.count)
-        imported = draft_models(models, name, arguments.most, counts, arguments.exponents)
-    except UnreadableError as error:
-        raise StopError(f"{arguments.file}: {error.message}", error.hint, FINDINGS) from error
-    write_draft(compilable(imported.groups, imported.head, with_head=True), arguments.out)
-    print(_report(len(models), imported), file=sys.stderr)
-    return FINE
+def from_models(arguments: Namespace) -> tuple[str, list[str]]:
+    """Return the draft of models of SunSpec, and a report of it. Raises UnreadableError."""
+    models = read_models(arguments.file, arguments.models)
+    name, counts = arguments.device or "sunspec", dict(arguments.count)
+    drafted = draft_models(models, name, arguments.most, counts, arguments.exponents)
+    return _with_report(drafted, f"{counted(len(models), 'model')}, {counted(len(drafted.points), 'point')}")
+
+
+def from_template(arguments: Namespace) -> tuple[str, list[str]]:
+    """Return the draft of a template of wb-mqtt-serial, and a report of it. Raises UnreadableError."""
+    drafted = draft(arguments.file, arguments.device or "draft")
+    return _with_report(drafted, counted(len(drafted.points), "row"))
 
 
 def _numbers(text: str) -> tuple[int, ...]:
@@ -54,9 +53,8 @@ def _count(text: str) -> tuple[str, int]:
     return name, int(number)
 
 
-def _report(models: int, imported: Imported) -> str:
-    """Return a report of what is carried and what is not."""
-    whole = sum(not point.questions for point in imported.points)
-    lost = imported.lost().most_common()
-    first = f"{counted(models, 'model')}, {counted(len(imported.points), 'point')}, {whole} whole"
-    return visible("; ".join((first, *(f"not carried: {what} ({times})" for what, times in lost))))
+def _with_report(drafted: WholeDraft, counts: str) -> tuple[str, list[str]]:
+    """Return the text of a draft, and the report of what is carried and what is not."""
+    whole = sum(not point.questions for point in drafted.points)
+    lost = (f"not carried: {what} ({times})" for what, times in drafted.not_carried.most_common())
+    return compilable(drafted.groups, drafted.head, with_head=True), ["; ".join((f"{counts}, {whole} whole", *lost))]

@@ -9,10 +9,9 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from decimal import Decimal
 from fractions import Fraction
-from itertools import chain, count
 from typing import Any
 
-from fieldscribe.importing.draft_text import DraftGroup, DraftPoint, label_map, scalar, snake
+from fieldscribe.importing.draft_text import DraftGroup, DraftPoint, Names, label_map, scalar, snake
 from fieldscribe.importing.readers import UnreadableError
 from fieldscribe.language.units import shipped_unit
 from fieldscribe.model.point import message_bits
@@ -22,20 +21,6 @@ _LONGEST, _USUAL_LENGTH, _WIDEST, _LONGEST_WHEN = 64, 8, 64, 200
 _EXTENDED_BITS, _USUAL_BITS = 29, 11
 _MESSAGE, _SIGNAL = re.compile(r"\s*BO_\s+([0-9]{1,10})\b"), re.compile(r"\s*SG_\s+(\w+)\b")
 _CODE = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,39}")
-
-
-class _Given:
-    """Gives names that differ in more than underscores: in languages without underscores others would clash."""
-
-    def __init__(self) -> None:
-        self._taken: set[str] = set()
-
-    def give(self, name: str) -> str:
-        """Return the name, followed by a number if it is taken."""
-        candidates = chain((name,), (f"{name}_n{number}" for number in count(2)))
-        given = next(each for each in candidates if each.replace("_", "") not in self._taken)
-        self._taken.add(given.replace("_", ""))
-        return given
 
 
 class DbcDraft:
@@ -52,13 +37,13 @@ class DbcDraft:
             )
         self.lost: Counter[str] = Counter()
         self.groups: list[DraftGroup] = []
-        self._node, self._names, self._units = node, _Given(), dict[str, None]()
+        self._node, self._names, self._units = node, _names(), dict[str, None]()
         signals = [signal for message in database.messages for signal in message.signals]
         self._count, self._of_name = len(signals), Counter(_name(signal.name) for signal in signals)
         self._codes = Counter(signal.name for signal in signals)
         extended = sum(message.is_extended_frame for message in database.messages)
         self._bits = _EXTENDED_BITS if 2 * extended > len(database.messages) else _USUAL_BITS
-        self._of_messages, self._lines = _Given(), _lines(text)
+        self._of_messages, self._lines = _names(), _lines(text)
         self._messages = [text for message in database.messages for text in self._message(message)]
 
     def bus(self) -> list[str]:
@@ -183,6 +168,11 @@ class DbcDraft:
                 point.facts["range"] = f"{low}..{high}"
         else:
             self.lost["limits that leave out named numbers"] += 1
+
+
+def _names() -> Names:
+    """Return a giver of names that differ in more than underscores: in languages without these, others would clash."""
+    return Names(lambda name: name.replace("_", ""), "n")
 
 
 def _views(signals: list[Any], by_name: Mapping[str, Any]) -> Iterator[tuple[Any, Any]]:

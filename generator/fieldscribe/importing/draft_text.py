@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import chain, count
 from typing import NamedTuple
@@ -163,6 +164,26 @@ class DraftBlock:
         self.lines = []
 
 
+class WholeDraft(NamedTuple):
+    """The groups and the head of a drafted device."""
+
+    groups: list[DraftGroup]
+    head: Head
+
+    @property
+    def points(self) -> list[DraftPoint]:
+        """The drafted points."""
+        return [point for group in self.groups for point in group.points]
+
+    @property
+    def not_carried(self) -> Counter[str]:
+        """The number of facts that became questions, by kind."""
+        texts = [text for group in self.groups for text in group.comments]
+        texts += [text for point in self.points for text in point.questions]
+        texts += [text for block in self.head.blocks for text in block.questions]
+        return Counter(text.removeprefix("not carried: ").partition(":")[0] for text in texts)
+
+
 class Line(NamedTuple):
     """A line of the draft, with its owner and its key."""
 
@@ -203,27 +224,39 @@ def snake(title: str, otherwise: str, *, articles: bool = False) -> str:
 
 
 class Names:
-    """Gives unique names."""
+    """Gives unique names; `folded` returns the part of a name that must differ, `mark` comes before a number."""
 
-    def __init__(self) -> None:
+    def __init__(self, folded: Callable[[str], str] = str, mark: str = "") -> None:
         self._taken: set[str] = set()
+        self._folded, self._mark = folded, mark
 
     def give(self, name: str, *suffixes: str) -> str:
         """Return the name; if it is taken, with the first suffix that makes it unique, or else a number."""
-        candidates = chain((name,), (f"{name}_{one}" for one in suffixes if one), (f"{name}_{n}" for n in count(2)))
-        given = next(candidate for candidate in candidates if candidate not in self._taken)
-        self._taken.add(given)
+        ends = chain(filter(None, suffixes), (f"{self._mark}{number}" for number in count(2)))
+        candidates = chain((name,), (f"{name}_{end}" for end in ends))
+        given = next(candidate for candidate in candidates if self._folded(candidate) not in self._taken)
+        self._taken.add(self._folded(given))
         return given
 
 
 def label_map(labels: Mapping[str, str], key: str, language: str) -> str:
     """Return numbers or bits with their names as the block of an `enum` (no `key`) or of `flags` (`title`)."""
-    names = Names()
-    lines = []
-    for number, label in labels.items():
-        name = scalar(names.give(snake(label, "number"), number.replace("..", "_")))
-        titles = _titles(label, language)
-        lines.append(f"\n  {number}: {{name: {name}, {f'{key}: {titles}}}' if key else titles[1:]}")
+    titles = {number: _titles(label, language) for number, label in labels.items()}
+    return named_numbers(
+        (number, label, number.replace("..", "_"), f"{key}: {titles[number]}" if key else titles[number][1:-1])
+        for number, label in labels.items()
+    )
+
+
+def named_numbers(entries: Iterable[tuple[object, str, str, str]]) -> str:
+    """Return numbers or bits as the block of an `enum` or of `flags`.
+
+    Each has a label that becomes its name, a suffix that makes the name unique, and its further facts.
+    """
+    names, lines = Names(), []
+    for number, label, suffix, facts in entries:
+        name = scalar(names.give(snake(label, "number"), suffix))
+        lines.append(f"\n  {number}: {{name: {name}, {facts}}}")
     return "".join(lines)
 
 

@@ -15,7 +15,17 @@ from typing import NamedTuple
 
 from fieldscribe.families import families
 from fieldscribe.importing.cells import unit_in
-from fieldscribe.importing.draft_text import Document, DraftGroup, DraftPoint, Head, Names, scalar, snake
+from fieldscribe.importing.draft_text import (
+    Document,
+    DraftGroup,
+    DraftPoint,
+    Head,
+    Names,
+    WholeDraft,
+    named_numbers,
+    scalar,
+    snake,
+)
 from fieldscribe.importing.sunspec.models import Group, Model, Point
 from fieldscribe.wording.exact import number_text
 
@@ -152,13 +162,11 @@ def _state_factor(point: Point, drafted: DraftPoint, scope: Mapping[str, DraftPo
 
 def _labels(point: Point, key: str) -> str:
     """Return the symbols of a point as the block of its enum or flags."""
-    names = Names()
-    lines = []
-    for symbol in point.symbols:
-        name = names.give(snake(symbol.name, "number"), str(symbol.number))
-        title = symbol.text or symbol.name.replace("_", " ").capitalize()
-        lines.append(f"\n  {symbol.number}: {{name: {scalar(name)}, {key}{scalar(title)}}}")
-    return "".join(lines)
+    titles = (symbol.text or symbol.name.replace("_", " ").capitalize() for symbol in point.symbols)
+    return named_numbers(
+        (symbol.number, symbol.name, str(symbol.number), f"{key}{scalar(title)}")
+        for symbol, title in zip(point.symbols, titles, strict=True)
+    )
 
 
 def note_of(text: str) -> str:
@@ -170,27 +178,9 @@ _FOUND = "found: {models: {text: SunS, at: [40000, 0, 50000], then: [id, length]
 _LONGEST_TITLE, _LONGEST_NAME, _LONGEST_CODE = 120, 78, 40
 
 
-class Imported(NamedTuple):
-    """The drafted groups, and the head."""
-
-    groups: list[DraftGroup]
-    head: Head
-
-    @property
-    def points(self) -> list[DraftPoint]:
-        """The drafted points."""
-        return [point for group in self.groups for point in group.points]
-
-    def lost(self) -> Counter[str]:
-        """Return the kinds of facts that are not carried, each with its number."""
-        questions = [question for point in self.points for question in point.questions]
-        comments = [comment for group in self.groups for comment in group.comments]
-        return Counter(text.partition(":")[0] for text in (*questions, *comments))
-
-
 def draft_models(
     models: Sequence[Model], device: str, most: int, counts: Mapping[str, int], exponents: int = MOST_EXPONENT
-) -> Imported:
+) -> WholeDraft:
     """Return the draft of a device with these models, with the first `most` elements of each repetition.
 
     `counts` are the values of counting points of the device, by name; with them, everything after counted elements has
@@ -215,7 +205,7 @@ def draft_models(
     shared = drafter.facts.shared(point for group in drafter.groups for point in group.points)
     facts = ["certainty: imported", _FOUND, *shared]
     head = Head(device, documents, family.name, title=title[:_LONGEST_TITLE], facts=facts, kind="models of SunSpec")
-    return Imported(drafter.groups, head)
+    return WholeDraft(drafter.groups, head)
 
 
 def _names(group: Group) -> list[str]:

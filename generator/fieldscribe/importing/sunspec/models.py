@@ -12,6 +12,7 @@ from typing import Any
 
 from fieldscribe.importing.readers import UnreadableError
 from fieldscribe.safe_files import read_regular
+from fieldscribe.text import line
 
 _MOST_BYTES, _MOST_PARTS, _DEEPEST = 4 << 20, 5_000, 6
 """Limits of a file: its bytes, its points and groups, groups within groups."""
@@ -101,7 +102,7 @@ def read_model(path: Path) -> Model:
     try:
         tree = json.loads(data)
     except (ValueError, RecursionError) as error:
-        raise UnreadableError(f"{path.name} is no JSON: {one_line(str(error))[:200]}") from error
+        raise UnreadableError(f"{path.name} is no JSON: {line(str(error))[:200]}") from error
     reader = _Reader(path.name)
     number = reader.number(tree, "id", None)
     group = reader.group(reader.value(tree, "group", dict, None), 0)
@@ -110,11 +111,6 @@ def read_model(path: Path) -> Model:
     header = 2 if [point.name for point in group.points[:2]] == ["ID", "L"] else 0
     group = replace(group, points=group.points[header:])
     return Model(number, header, group, path.name, sha256(data).hexdigest())
-
-
-def one_line(text: str) -> str:
-    """Return a text on one line, without control characters."""
-    return " ".join("".join(char if char.isprintable() else " " for char in text).split())
 
 
 class _Reader:
@@ -126,7 +122,7 @@ class _Reader:
 
     def _wrong(self, what: str) -> UnreadableError:
         hint = "this reads the models of github.com/sunspec/models, in its folder `json`"
-        return UnreadableError(f"{self._file}: {one_line(what)[:200]}", hint=hint)
+        return UnreadableError(f"{self._file}: {line(what)[:200]}", hint=hint)
 
     def value(self, tree: Any, key: str, kinds: Any, otherwise: Any) -> Any:
         """Return the value of a key; `otherwise` for a missing key, unless that is None."""
@@ -144,14 +140,14 @@ class _Reader:
         return number
 
     def _text(self, tree: Any, key: str, otherwise: str | None = "") -> str:
-        return one_line(self.value(tree, key, str, otherwise))
+        return line(self.value(tree, key, str, otherwise))
 
     def _remarks(self, tree: Any) -> str:
         """Return the description and further remarks, each as a sentence."""
         standards = ", ".join(map(str, self.value(tree, "standards", list, [])))
         comments = map(str, self.value(tree, "comments", list, []))
         texts = (*(self._text(tree, key) for key in ("desc", "detail", "notes")), *comments, standards)
-        return " ".join(f"{text}{'' if text[-1] in '.!?' else '.'}" for text in map(one_line, texts) if text)
+        return " ".join(f"{text}{'' if text[-1] in '.!?' else '.'}" for text in map(line, texts) if text)
 
     def group(self, tree: Any, depth: int) -> Group:
         """Return a group with everything inside."""

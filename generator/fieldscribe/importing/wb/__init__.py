@@ -5,16 +5,24 @@ whole device; repetitions become one row. Whatever is not carried is a question 
 """
 
 import re
-from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from hashlib import sha256
 from itertools import pairwise
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from fieldscribe.importing import compilable
-from fieldscribe.importing.draft_text import Document, DraftBlock, DraftGroup, DraftPoint, Head, Names, snake
+from fieldscribe.importing.draft_text import (
+    Document,
+    DraftBlock,
+    DraftGroup,
+    DraftPoint,
+    Head,
+    Names,
+    WholeDraft,
+    snake,
+)
 from fieldscribe.importing.readers import MOST_ROWS, UnreadableError
 from fieldscribe.importing.wb.heads import FAMILY, base_of, blocks_of, bus_of, first_firmware, identification
 from fieldscribe.importing.wb.parameters import Parameters
@@ -122,22 +130,7 @@ def _array_row(run: dict[int, DraftPoint], place: int, points: Names, renamed: d
     return point
 
 
-class Draft(NamedTuple):
-    """The groups and the head of a drafted device."""
-
-    groups: list[DraftGroup]
-    head: Head
-
-    @property
-    def not_carried(self) -> Counter[str]:
-        """The number of facts that became questions, by key."""
-        texts = [text for group in self.groups for text in group.comments]
-        texts += [text for group in self.groups for point in group.points for text in point.questions]
-        texts += [text for block in self.head.blocks for text in block.questions]
-        return Counter(text.removeprefix("not carried: ").partition(":")[0] for text in texts)
-
-
-def draft(path: Path, device: str) -> Draft:
+def draft(path: Path, device: str) -> WholeDraft:
     """Draft a device from a template. Raises UnreadableError, OSError."""
     template = read_template(path)
     body = template["device"]
@@ -175,7 +168,7 @@ def draft(path: Path, device: str) -> Draft:
         bus=bus_of(body, groups),
     )
     compilable(groups, head, with_head=True)  # a point that is a view of another is not folded
-    return Draft(folded(groups, head.blocks), head)
+    return WholeDraft(folded(groups, head.blocks), head)
 
 
 def _rows(body: Mapping[str, Any], texts: Texts) -> Iterator[Row]:

@@ -9,7 +9,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, TypeAlias
 
-from fieldscribe.importing.draft_text import Names, scalar, snake, titles_text
+from fieldscribe.importing.draft_text import named_numbers, titles_text
 from fieldscribe.importing.readers import UnreadableError
 from fieldscribe.importing.wb import rendering
 from fieldscribe.safe_files import read_regular
@@ -125,9 +125,8 @@ def number_of(value: Any) -> Fraction | None:
 
 def labels_text(labels: Labels, texts: Texts) -> str:
     """Return the names of numbers as the block of an `enum`."""
-    names, lines = Names(), []
-    for number, label in labels.items():
-        english = texts.english(label)
-        name = scalar(names.give(snake(english, "number"), str(abs(number))))
-        lines.append(f"\n  {number}: {{name: {name}, {titles_text(english, texts.others(label))[1:]}")
-    return "".join(lines)
+    english = {number: texts.english(label) for number, label in labels.items()}
+    return named_numbers(
+        (number, english[number], str(abs(number)), titles_text(english[number], texts.others(label))[1:-1])
+        for number, label in labels.items()
+    )
