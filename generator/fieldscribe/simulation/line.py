@@ -43,6 +43,22 @@ _SPOILED = frozenset({"check", "unit", "function", "exception"})
 _NUMBER, _TIMES, _SHARE = (re.compile(form) for form in (r"\d+(?:\.\d+)?", r"x(\d+)", r"(\d+(?:\.\d+)?)%"))
 
 
+def cut_sound(data: bytes, sound_size: Callable[[bytes], int], least: int, longest: int) -> tuple[list[bytes], int]:
+    """Return the sound frames in the data, and where the last one ends; what begins no sound frame is skipped.
+
+    `sound_size` returns the size of the sound frame that its argument begins with, 0 if it begins with none.
+    """
+    found: list[bytes] = []
+    end = at = 0
+    while len(data) - at >= least:
+        size = sound_size(data[at : at + longest])
+        if size:
+            found.append(bytes(data[at : at + size]))
+            end = at + size
+        at += size or 1
+    return found, end
+
+
 class Outcome(NamedTuple):
     """What is sent for an answer: bytes, a delay, and whether the line breaks down afterwards."""
 

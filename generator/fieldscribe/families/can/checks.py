@@ -136,12 +136,10 @@ def _with_right_checksum(
     wrong = by_status.get("wrong_check")
     if "ok" in by_status or wrong is None:
         return frame, by_status.get("ok")
-    data, (here, right) = bytearray(frame.printed), frames.sums(wrong.message, frame.printed)
-    for place, due in zip(frames.places(wrong.message, "xor"), right, strict=True):
-        data[place] = due
-    frames_agree.report_wrong_sum(subject, open_frame, "xor", here, right)
-    parsed = frames.parse(wrong.message, wrong.unit, frames.CanFrame(number, bytes(data)))
-    return replace(frame, corrected=bytes(data), valid=False), replace(wrong, parsed=parsed)
+    data = frames.summed(wrong.message, frame.printed)
+    frames_agree.report_wrong_sum(subject, open_frame, "xor", *frames.sums(wrong.message, frame.printed))
+    parsed = frames.parse(wrong.message, wrong.unit, frames.CanFrame(number, data))
+    return replace(frame, corrected=data, valid=False), replace(wrong, parsed=parsed)
 
 
 def _fault(frame: Frame, readings: list[_Reading], reading: _Reading | None, request: _Reading | None) -> str | None:

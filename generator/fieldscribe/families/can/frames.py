@@ -1,8 +1,9 @@
 """Messages of a CAN device: builds their frames, reads frames as messages, and collects those of a telegram. No I/O."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from operator import itemgetter
+from types import MappingProxyType
 from typing import NamedTuple
 
 from fieldscribe.arithmetic.words import words_in
@@ -13,6 +14,7 @@ LENGTH = 8
 LONGEST = 64
 """The most bytes of a message with signals; more than 8 take CAN FD."""
 _WORD = 0xFFFF
+_NO_WORDS: Mapping[int, int] = MappingProxyType({})
 _STATUSES = {"constant": "wrong_constant", "unit": "wrong_unit"}
 """The status of a frame whose bytes of this role differ."""
 
@@ -160,17 +162,28 @@ def build(message: Message, units: tuple[int, int], unit: int, address: int, raw
     ):
         if not low <= number <= high:
             return status, CanFrame(0, b"")
-    data = [_byte(role, unit, address, raw) for role in message.roles]
+    return "ok", CanFrame(identifier(message, unit), filled(message, {"unit": unit, "address": address, "raw": raw}))
+
+
+def filled(message: Message, numbers: Mapping[str, int], words: Mapping[int, int] = _NO_WORDS) -> bytes:
+    """Return the bytes of a message with a layout, checksums included: `numbers` by the kind of their role."""
+    return summed(message, [_byte(role, numbers, words) for role in message.roles])
+
+
+def summed(message: Message, data: Iterable[int]) -> bytes:
+    """Return the data of a message with its right checksums."""
+    result = bytearray(data)
     for place in places(message, "xor"):
-        data[place] = checksum(data, message.roles[place].number)
-    return "ok", CanFrame(identifier(message, unit), bytes(data))
+        result[place] = checksum(result, message.roles[place].number)
+    return bytes(result)
 
 
-def _byte(role: Role, unit: int, address: int, raw: int) -> int:
+def _byte(role: Role, numbers: Mapping[str, int], words: Mapping[int, int]) -> int:
     if role.kind == "constant":
         return role.number
-    carried = {"unit": unit, "address": address, "raw": raw}.get(role.kind, 0)
-    return carried >> role.number & 0xFF
+    if role.kind == "word":
+        return words.get(role.number >> 1, 0) >> (0 if role.number & 1 else 8) & 0xFF
+    return numbers.get(role.kind, 0) >> (0 if role.kind == "multiplexer" else role.number) & 0xFF
 
 
 def differences(message: Message, unit: int, frame: CanFrame) -> tuple[Difference, ...]:
@@ -178,7 +191,7 @@ def differences(message: Message, unit: int, frame: CanFrame) -> tuple[Differenc
     result = []
     for place, (role, here) in enumerate(zip(message.roles, frame.data, strict=True)):
         if role.kind in _STATUSES:
-            due = _byte(role, unit, 0, 0)
+            due = _byte(role, {"unit": unit}, _NO_WORDS)
             result += [Difference(place, role.kind, here, due)] if here != due else []
     return tuple(result)
 

@@ -53,19 +53,11 @@ class CanReading(FamilyReader):
     def messages(self, scope: Scope, bus: Bus) -> tuple[Message, ...]:
         """Return all messages in the order of the description; report and leave out those with a wrong layout."""
         result: dict[str, Message] = {}
-        seen: dict[str, Span] = {}
-        for node in scope.listed("messages"):
-            name = str(node["name"])
-            if name in seen:
-                first = [(seen[name], "first given here")]
-                message = f"two messages have the name `{name}`"
-                scope.report.error("duplicate-name", message, node.span("name"), "rename one of them", first)
-                continue
-            seen[name] = node.span("name")
+        for node in scope.unique("messages"):
             read = _message(scope, bus, node)
             if read is not None:
-                result[name] = read
-        _check_answers(scope, result, seen)
+                result[read.name] = read
+        _check_answers(scope, result, {str(node["name"]) for node in scope.listed("messages")})
         return tuple(result.values())
 
     def lay_out(self, messages: Messages, points: Iterable[Point]) -> tuple[Messages, list[Point]]:

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from fieldscribe.arithmetic.words import joined
 from fieldscribe.families.can import frames, identifier_bits, signals
 from fieldscribe.families.can.frames import CanFrame, carriers, identifier, parse, request_and_answer
-from fieldscribe.model import Message, Role, Telegram
+from fieldscribe.model import Message, Telegram
 from fieldscribe.simulation.device import Refusal, SimulatedDevice
 from fieldscribe.simulation.line import Answer, Core
 
@@ -84,11 +84,8 @@ class _Sender:
 
     def _words(self, words: Mapping[int, int]) -> bytes:
         first = self._slot * self._message.words
-        return _filled(
-            self._message,
-            {"unit": self._unit.device.unit, "multiplexer": self._slot},
-            {at - first: words[at] for at in words},
-        )
+        numbers = {"unit": self._unit.device.unit, "multiplexer": self._slot}
+        return frames.filled(self._message, numbers, {at - first: words[at] for at in words})
 
     def _signals(self, words: Mapping[int, int]) -> bytes:
         """Return the bytes of the fields that come together, with the numbers that select them."""
@@ -161,7 +158,7 @@ class _Unit:
             return self._refused(refusal)
         if answer is None:
             return Answer(self.device, b"")
-        data = _filled(answer, {"unit": self.device.unit, "address": address, "raw": word})
+        data = frames.filled(answer, {"unit": self.device.unit, "address": address, "raw": word})
         return Answer(self.device, self.framed(answer, data))
 
     def _write(self, address: int, raw: int) -> None:
@@ -191,19 +188,3 @@ class _Unit:
     def _refused(self, refusal: Refusal) -> Answer:
         self.device.complain_of(refusal)
         return Answer(self.device, b"", refused=refusal.why)
-
-
-def _filled(message: Message, numbers: Mapping[str, int], words: Mapping[int, int] | None = None) -> bytes:
-    """Return the bytes of a message with a layout, checksums included: `numbers` by the kind of their role."""
-
-    def byte(role: Role) -> int:
-        if role.kind == "constant":
-            return role.number
-        if role.kind == "word":
-            return (words or {}).get(role.number >> 1, 0) >> (0 if role.number & 1 else 8) & 0xFF
-        return numbers.get(role.kind, 0) >> (0 if role.kind == "multiplexer" else role.number) & 0xFF
-
-    data = [byte(role) for role in message.roles]
-    for place in frames.places(message, "xor"):
-        data[place] = frames.checksum(data, message.roles[place].number)
-    return bytes(data)

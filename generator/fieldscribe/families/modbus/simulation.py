@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from fieldscribe.families.modbus import FUNCTIONS, READS, SINGLE, SPACES, Profile, profile_of
+from fieldscribe.families.modbus import FUNCTIONS, READS, SPACES, Profile, profile_of
 from fieldscribe.families.modbus.exchange import Request, request_in
-from fieldscribe.families.modbus.frames import Flaw, Unwrapped, crc16, frame, pack_bits, request_length
+from fieldscribe.families.modbus.frames import LEAST, Flaw, Unwrapped, crc16, frame, pack_bits, request_length
 from fieldscribe.model import Bus, Source
 from fieldscribe.simulation.device import Refusal, SimulatedDevice, by_unit
-from fieldscribe.simulation.line import Answer, Core
+from fieldscribe.simulation.line import Answer, Core, cut_sound
 
 LINES = {"tcp": ("any", "tcp", "rtu"), "serial": ("rtu",)}
 _LONGEST = 256
@@ -228,27 +228,17 @@ def _cut_tcp(data: bytes, *, quiet: bool) -> tuple[list[bytes], int]:
 
 def _cut_rtu(data: bytes, *, quiet: bool) -> tuple[list[bytes], int]:
     """Cut by the length that the function gives, and the checksum; one of an unknown function ends with the data."""
-    found: list[bytes] = []
-    begin = at = 0
-    while len(data) - at >= 4:
-        size = _rtu_size(data, at)
-        if size and at + size <= len(data) and _is_right(data[at : at + size]):
-            found.append(bytes(data[at : at + size]))
-            begin = at = at + size
-        else:
-            at += 1
-    rest = data[begin:]
-    if 4 <= len(rest) <= _LONGEST and _rtu_size(rest, 0) == 0 and _is_right(rest):
+    found, end = cut_sound(data, _sound_size, LEAST["rtu"], _LONGEST)
+    rest = data[end:]
+    if LEAST["rtu"] <= len(rest) <= _LONGEST and not request_length(rest[1:]) and _is_right(rest):
         return [*found, bytes(rest)], len(data)
-    return found, len(data) if quiet else max(begin, len(data) - _LONGEST)
+    return found, len(data) if quiet else max(end, len(data) - _LONGEST)
 
 
-def _rtu_size(data: bytes, at: int) -> int:
-    """Return the length of a request that begins here; 0 if its function is unknown, or too little is there."""
-    if data[at + 1] in SINGLE or data[at + 1] in READS:
-        return 8
-    size = request_length(data[at + 1 : at + 8])
-    return size + 3 if size else 0
+def _sound_size(data: bytes) -> int:
+    """Return the size of the request that the data begin with; 0 if its function, length or checksum says none."""
+    length = request_length(data[1:])
+    return length + 3 if 0 < length <= len(data) - 3 and _is_right(data[: length + 3]) else 0
 
 
 def _is_right(data: bytes) -> bool:

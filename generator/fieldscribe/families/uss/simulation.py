@@ -7,10 +7,10 @@ from fieldscribe.arithmetic.words import split as words_of
 from fieldscribe.arithmetic.words import words_in
 from fieldscribe.families.uss import of_bus, parts
 from fieldscribe.families.uss.parts import Link, Part
-from fieldscribe.families.uss.telegrams import LEAST_BYTES, START, sound_size, telegram
+from fieldscribe.families.uss.telegrams import LEAST_BYTES, sound_size, telegram
 from fieldscribe.model import Point
 from fieldscribe.simulation.device import Refusal, SimulatedDevice, by_unit
-from fieldscribe.simulation.line import Answer, Core
+from fieldscribe.simulation.line import Answer, Core, cut_sound
 
 LINES = {"serial": ("uss",), "tcp": ("uss",)}
 _LONGEST = 257
@@ -50,16 +50,9 @@ class UssCore(Core):
         self._units = {unit: _Unit(device) for unit, device in by_unit(devices).items()}
 
     def cut(self, data: bytes, *, quiet: bool) -> tuple[list[bytes], int]:
-        """Cut by start, length and check byte; what begins no sound telegram is skipped."""
-        found: list[bytes] = []
-        begin = at = 0
-        while len(data) - (at := data.find(START, at)) >= LEAST_BYTES and at >= 0:
-            size = sound_size(data[at : at + _LONGEST])
-            if size:
-                found.append(data[at : at + size])
-                begin = at + size
-            at += size or 1
-        return found, len(data) if quiet else max(begin, len(data) - _LONGEST)
+        """Cut by start, length and check byte."""
+        found, end = cut_sound(data, sound_size, LEAST_BYTES, _LONGEST)
+        return found, len(data) if quiet else max(end, len(data) - _LONGEST)
 
     def answer(self, request: bytes) -> Answer | None:
         """Return what a telegram leads to; None if no device answers it."""

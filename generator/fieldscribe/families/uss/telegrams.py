@@ -87,7 +87,7 @@ def frames_in(data: bytes) -> list[bytes]:
 
 def sound_size(data: bytes) -> int:
     """Return the size of the telegram that the bytes begin with; 0 if its start, length or check byte is wrong."""
-    size = data[1] + 2 if len(data) > 1 else 0
+    size = data[1] + 2 if len(data) > 1 and data[0] == START else 0
     return size if 0 < size <= len(data) and not unwrap(data[:size]).flaws else 0
 
 
