@@ -10,6 +10,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
+from fieldscribe.grouping import grouped
+
 _TESTS: Mapping[str, Callable[[int, int], bool]] = {
     "<": operator.lt,
     "<=": operator.le,
@@ -112,9 +114,7 @@ ANY: Domain = ((-_LARGEST, _LARGEST),)
 
 def possible(clause: Iterable[Comparison], domain_of: Callable[[str], Domain]) -> bool:
     """Return True if all comparisons of a clause can be true at once."""
-    together: dict[str, list[Comparison]] = {}
-    for comparison in clause:
-        together.setdefault(comparison.of, []).append(comparison)
+    together = grouped((comparison.of, comparison) for comparison in clause)
     return all(
         any(all(comparison.holds(sample) for comparison in group) for sample in _samples(group, domain_of(name)))
         for name, group in together.items()

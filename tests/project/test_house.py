@@ -22,7 +22,7 @@ HOUSE = Path(fieldscribe.__file__).parent
 ROOMS = (
     (
         "words, places, files of the package",
-        """__init__ user_errors pasted_numbers text
+        """__init__ user_errors pasted_numbers text grouping
         diagnostics schema_types safe_files report resources""",
     ),
     ("the neutral model", "conditions model code_view"),

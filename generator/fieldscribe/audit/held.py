@@ -13,7 +13,7 @@ from fieldscribe.audit.evidence import Found, found, labels_found, lies_in_secti
 from fieldscribe.audit.manual import Extent, Manual, Passage, has_word
 from fieldscribe.audit.numbers import Notation, Token
 from fieldscribe.audit.point_claims import KEYS_OF_PRINTED
-from fieldscribe.model import About
+from fieldscribe.grouping import grouped
 from fieldscribe.resolve.analysis import Analysis
 
 _BINARY_FACTS = ("enum", "flag values", "special", "fixed bits", "default")
@@ -72,10 +72,7 @@ class Held:
         self.places: dict[Claim, list[Place]] = {}
         self.extents: dict[Extent, dict[str, str]] = {}
         """Each cited place with the subjects that cite it, and where the description says each."""
-        self.errata_of: dict[About, list[PrintedErratum]] = {}
-        for erratum in citations.errata:
-            for about in erratum.subjects:
-                self.errata_of.setdefault(about, []).append(erratum)
+        self.errata_of = grouped((about, erratum) for erratum in citations.errata for about in erratum.subjects)
         self._hold()
 
     def _hold(self) -> None:

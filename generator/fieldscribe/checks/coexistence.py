@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property
 
 from fieldscribe.conditions import ANY, Clause, Comparison, Domain, ends_before, possible
+from fieldscribe.grouping import grouped
 from fieldscribe.model import Point
 from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.points import ResolvedPoint
@@ -31,11 +32,8 @@ class Coexistence:
     @cached_property
     def points(self) -> dict[str, list[Point]]:
         """Return the points by name (in all variants) and by item."""
-        points_of_name: dict[str, list[Point]] = {}
-        for resolved in self._resolved:
-            for name in {resolved.point.name, resolved.point.item}:
-                points_of_name.setdefault(name, []).append(resolved.point)
-        return points_of_name
+        points = [resolved.point for resolved in self._resolved]
+        return grouped((name, point) for point in points for name in {point.name, point.item})
 
     def domain(self, name: str) -> Domain:
         """Return the values of an axis, or the raw numbers that a point may hold."""

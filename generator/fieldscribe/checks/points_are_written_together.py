@@ -1,5 +1,6 @@
 """Points that must be written together can be written in one request."""
 
+from fieldscribe.grouping import grouped
 from fieldscribe.model import Point
 from fieldscribe.resolve.analysis import Analysis
 
@@ -8,9 +9,7 @@ def check(analysis: Analysis) -> None:
     """Report points under `write_with` that cannot be written, or not in the request of the point."""
     one_at_a_time = analysis.scope.family.words
     together = [resolved for resolved in analysis.resolved if resolved.point.write_with]
-    by_name: dict[str, list[Point]] = {}
-    for resolved in analysis.resolved if together else ():
-        by_name.setdefault(resolved.point.name, []).append(resolved.point)
+    by_name = grouped((resolved.point.name, resolved.point) for resolved in analysis.resolved if together)
     for resolved in together:
         point, facts = resolved.point, resolved.facts
         if facts.failed & {"at", "space", "type", "access"}:

@@ -1,16 +1,15 @@
 """A point that is a view of another shares words with it."""
 
 from fieldscribe.checks.coexistence import WordKey, word_key
+from fieldscribe.grouping import grouped
 from fieldscribe.model import Point, bits_of
 from fieldscribe.resolve.analysis import Analysis
 
 
 def check(analysis: Analysis) -> None:
     """Report views that share no words with the point that they name."""
-    viewed: dict[str, list[Point]] = {}
-    if any(resolved.point.view_of for resolved in analysis.resolved):
-        for resolved in analysis.resolved:
-            viewed.setdefault(resolved.point.name, []).append(resolved.point)
+    any_view = any(resolved.point.view_of for resolved in analysis.resolved)
+    viewed = grouped((resolved.point.name, resolved.point) for resolved in analysis.resolved if any_view)
     for resolved in analysis.resolved:
         point, facts = resolved.point, resolved.facts
         if point.view_of is None or facts.failed & {"at", "space", "type"}:

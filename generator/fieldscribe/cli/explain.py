@@ -10,6 +10,7 @@ from fieldscribe.conversation.explanation import Explanation, explain_other_item
 from fieldscribe.conversation.lookup import Match, advice, find, prefixes
 from fieldscribe.conversation.selection import absence, base_options
 from fieldscribe.families import family
+from fieldscribe.grouping import grouped
 from fieldscribe.language.units import unit_hint
 from fieldscribe.model import Device
 from fieldscribe.pasted_numbers import HexError, number_of, parse_hex
@@ -92,10 +93,7 @@ def _points(device: Device, matches: list[Match], *, as_documented: bool, raw: i
     if matches and not existing:
         first = matches[0].point
         raise StopError(f"{label(first)}: {absence(device, first)}", "choose another --variant", FINDINGS)
-    readings: dict[str, list[str]] = {}
-    for match in existing:
-        word = f": {match.word}" if match.word else ""
-        readings.setdefault(match.point.item, []).append(match.reading + word)
+    readings = grouped((match.point.item, match.reading + (match.word and f": {match.word}")) for match in existing)
     points = {match.point.item: match.point for match in existing}
     return [
         (readings[item], explain_point(device, point, as_documented=as_documented, raw=raw))

@@ -8,6 +8,7 @@ from hashlib import sha256
 from fieldscribe.cli.common import Parser, StopError, add_repeated
 from fieldscribe.cli.terminal import FINDINGS
 from fieldscribe.families import FAMILIES, families
+from fieldscribe.grouping import grouped
 from fieldscribe.importing import Draft, compilable, draft
 from fieldscribe.importing.draft_points import Options
 from fieldscribe.importing.draft_text import Document, Head
@@ -49,10 +50,7 @@ def from_tables(arguments: Namespace) -> tuple[str, list[str]] | None:
     """
     _refuse_arguments(arguments)
     names = ("space", "family", "language", "tables", "lines", "base", "is_hex", "address_part", "ranges")
-    columns: dict[str, list[str]] = {}
-    for role, name in arguments.column:
-        columns.setdefault(role, []).append(name)
-    options = Options(columns, **{name: getattr(arguments, name) for name in names})
+    options = Options(grouped(arguments.column), **{name: getattr(arguments, name) for name in names})
     try:
         drafted = draft(read_tables(arguments.file), options)
     except ModuleNotFoundError as error:

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 from fieldscribe.cli.common import add_format, print_json, usage_error
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
+from fieldscribe.grouping import grouped
 from fieldscribe.language.units import Known, shipped, shipped_unit, unit_hint
 from fieldscribe.text import shortened
 
@@ -62,10 +63,7 @@ def _as_data(known: Known) -> dict[str, str]:
 
 def _print(chosen: Sequence[Known], *, with_prefixes: bool) -> None:
     """Print a line for each unit; prefixed units have their own only `with_prefixes`, else they follow their base."""
-    prefixed: dict[str, list[str]] = {}
-    for known in chosen:
-        if known.prefix:
-            prefixed.setdefault(known.base, []).append(known.unit.symbol)
+    prefixed = grouped((known.base, known.unit.symbol) for known in chosen if known.prefix)
     listed = [known for known in chosen if with_prefixes or not known.prefix]
     width = max((len(known.unit.symbol) for known in listed), default=0)
     for known in listed:

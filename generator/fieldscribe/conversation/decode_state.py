@@ -16,6 +16,7 @@ from fieldscribe.conversation.selection import absence, moved, same_meaning
 from fieldscribe.families import family
 from fieldscribe.families.decoded_frame import AddressSpan
 from fieldscribe.families.frame_results import Item
+from fieldscribe.grouping import grouped
 from fieldscribe.model import Device, Found, Place, Point
 from fieldscribe.text import line
 from fieldscribe.wording import label, title_text
@@ -208,10 +209,7 @@ class Directory:
         self._firsts = {(telegram, point.name): point.addresses[0] for telegram, point in named}
         self.plans: dict[tuple[Where, int], Any] = {}
         """The plans for items of whole spans and pieces, filled by `address_items` and `telegram_items`."""
-        self._derived: dict[str, list[Point]] = {}
-        for point in device.points:
-            for name in point.changes_with:
-                self._derived.setdefault(name, []).append(point)
+        self._derived = grouped((name, point) for point in device.points for name in point.changes_with)
 
     def places(self, where: str, address: int, index: int = 0) -> list[PointPlace]:
         """Return the points that have a word at this address, each with its place."""
@@ -325,9 +323,7 @@ def named_item(point: Point, base: Base, text: str = "", *, finding: str = "") -
 
 def without_variants(points: Iterable[Point], *, limits: bool) -> list[Point]:
     """Return the points, with one of all variants that have the same meaning (with `limits`, also the same limits)."""
-    by_name: dict[str, list[Point]] = {}
-    for point in points:
-        by_name.setdefault(point.name, []).append(point)
+    by_name = grouped((point.name, point) for point in points)
     result: list[Point] = []
     for first, *others in by_name.values():
         same = all(same_meaning(other, first) and (not limits or other.allowed == first.allowed) for other in others)

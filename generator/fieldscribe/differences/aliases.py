@@ -10,6 +10,7 @@ from typing import NamedTuple
 from fieldscribe.diagnostics import Report
 from fieldscribe.differences.changes import Comparison
 from fieldscribe.differences.described import Described
+from fieldscribe.grouping import grouped
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.source import SourceFile
 from fieldscribe.pipeline import load_analysis
@@ -118,11 +119,7 @@ def _texts(aliases: Iterable[_Alias]) -> Mapping[SourceFile, str]:
     rows: dict[int, tuple[Map, list[str]]] = {}
     for alias in aliases:
         rows.setdefault(id(alias.row), (alias.row, []))[1].append(alias.old)
-    edits: dict[SourceFile, list[tuple[int, str]]] = {}
-    for row, old_names in rows.values():
-        edit = _edit(row, old_names)
-        if edit is not None:
-            edits.setdefault(row.file, []).append(edit)
+    edits = grouped((row.file, edit) for row, names in rows.values() if (edit := _edit(row, names)) is not None)
     return {file: _inserted(file.text, places) for file, places in edits.items()}
 
 

@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 import fieldscribe.language.keys  # noqa: F401  # it reads the descriptions of the families, so it is loaded before them
 from fieldscribe.families import family
+from fieldscribe.grouping import grouped
 from fieldscribe.language.load import as_yaml
 from fieldscribe.text import counted, line
 
@@ -293,9 +294,7 @@ def draft_lines(groups: Sequence[DraftGroup], head: Head) -> tuple[list[Line], l
 def _shared_enums(points: Iterable[DraftPoint]) -> dict[str, tuple[str, DraftPoint]]:
     """Return the enums of several points as YAML, each with its name and its first point."""
     names = Names()
-    of_points: dict[str, list[DraftPoint]] = {}
-    for point in points:
-        of_points.setdefault(point.facts.get("enum", ""), []).append(point)
+    of_points = grouped((point.facts.get("enum", ""), point) for point in points)
     return {
         block: (names.give(users[0].name), users[0]) for block, users in of_points.items() if block and len(users) > 1
     }

@@ -10,6 +10,7 @@ from typing import Any
 
 from fieldscribe.code_view import for_code
 from fieldscribe.diagnostics import Report
+from fieldscribe.grouping import grouped
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import About, Block, Bus, Command, Device, Enum, Frame, Group, Identification, Message, Point
 from fieldscribe.model.device import SteppedCommand
@@ -47,9 +48,7 @@ class Analysis:
     cited: dict[About, list[LocatedErratum]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        for erratum in self.errata:
-            for subject in erratum.subjects:
-                self.cited.setdefault(subject, []).append(erratum)
+        self.cited |= grouped((subject, erratum) for erratum in self.errata for subject in erratum.subjects)
 
     @property
     def report(self) -> Report:
@@ -147,9 +146,7 @@ class Analysis:
 
     def _blocks(self, points: Iterable[Point], variants: dict[str, tuple[str, ...]]) -> dict[str, tuple[Block, ...]]:
         """Return the reads that the family plans for each group."""
-        by_group: dict[str, list[Point]] = {}
-        for point in points:
-            by_group.setdefault(point.group, []).append(point)
+        by_group = grouped((point.group, point) for point in points)
         reader = reader_of(self.scope)
         planned = {group: reader.blocks(self.bus, members, variants) for group, members in by_group.items()}
         return {group: blocks for group, blocks in planned.items() if blocks is not None}

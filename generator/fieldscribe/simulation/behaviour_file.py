@@ -8,6 +8,7 @@ from typing import Any
 
 from fieldscribe.arithmetic.codec import CodecError, encode
 from fieldscribe.diagnostics import Report, Span
+from fieldscribe.grouping import grouped
 from fieldscribe.language.formula import conditions
 from fieldscribe.language.formula.conditions import Move, parse_move
 from fieldscribe.language.formula.syntax import Binary, Expression, FormulaError, Name, Negate, Number, names
@@ -57,12 +58,8 @@ class _Reader:
 
     def __init__(self, node: Map, device: Device, report: Report) -> None:
         self.node, self.device, self.report = node, device, report
-        self.by_name: dict[str, list[Point]] = {}
-        by_code: dict[str, list[Point]] = {}
-        for point in device.points:
-            self.by_name.setdefault(point.name, []).append(point)
-            if point.code is not None:
-                by_code.setdefault(point.code, []).append(point)
+        self.by_name = grouped((point.name, point) for point in device.points)
+        by_code = grouped((point.code, point) for point in device.points if point.code is not None)
         self.by_code = {code: points for code, points in by_code.items() if code not in self.by_name}
         self.plant: dict[str, Quantity] = {}
 

@@ -9,6 +9,7 @@ from fieldscribe.code_view import for_code
 from fieldscribe.conversation.lookup import find, near
 from fieldscribe.facts.digest import with_digest
 from fieldscribe.families import family
+from fieldscribe.grouping import grouped
 from fieldscribe.model import Block, Command, Device, Enum, Interval, Point, SteppedCommand
 from fieldscribe.text import shortened
 from fieldscribe.user_errors import UnclearError, did_you_mean
@@ -117,10 +118,7 @@ def _hint(device: Device, word: str) -> str:
 
 def _with_dependencies(device: Device, items: set[str], named: Iterable[str]) -> list[Point]:
     """Return these points and all their dependencies, which can only be read."""
-    by_name: dict[str, list[Point]] = {}
-    for point in device.points:
-        for name in dict.fromkeys((point.item, point.name)):
-            by_name.setdefault(name, []).append(point)
+    by_name = grouped((name, point) for point in device.points for name in {point.item, point.name})
     read: dict[str, Point] = {}
     pending = [name for point in device.points if point.item in items for name in _dependencies(point)]
     pending += named

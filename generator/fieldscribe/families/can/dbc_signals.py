@@ -16,6 +16,7 @@ from fieldscribe.export import ExportError
 from fieldscribe.families.can import USUAL_BITS, identifier_bits
 from fieldscribe.families.can.frames import LENGTH, carries, frame_count, identifier, places
 from fieldscribe.families.can.signals import selectors
+from fieldscribe.grouping import grouped
 from fieldscribe.model import Device, Field, Flag, Message, Point
 from fieldscribe.text import line
 from fieldscribe.wording.exact import fixed_rule, hex_text
@@ -78,10 +79,8 @@ class DbcMessage:
 
 def messages_of(device: Device, unit: int) -> list[DbcMessage]:
     """Return the messages of a database for one unit. Raises ExportError."""
-    by_identifier: dict[tuple[int, bool, int | None, bool], list[Message]] = {}
-    for message in device.messages:
-        key = message.identifier, message.adds_unit, message.bits, bool(message.roles)
-        by_identifier.setdefault(key, []).append(message)
+    keys = ((each.identifier, each.adds_unit, each.bits, bool(each.roles)) for each in device.messages)
+    by_identifier = grouped(zip(keys, device.messages, strict=True))
     shorts: set[str] = set()
     dbc_messages = [_message(device, unit, group) for group in by_identifier.values()]
     for dbc_message in dbc_messages:

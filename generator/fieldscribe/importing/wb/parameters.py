@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from fractions import Fraction
 
+from fieldscribe.grouping import grouped
 from fieldscribe.importing.draft_text import DraftBlock, Names, scalar, snake, titles_text
 from fieldscribe.importing.wb.conditions import COMPARE, Condition, any_of, condition_of
 from fieldscribe.importing.wb.rows import Row
@@ -16,10 +17,7 @@ class Parameters:
     """The parameters of a template by id."""
 
     def __init__(self, rows: Sequence[Row], texts: Texts) -> None:
-        self._rows: dict[str, list[Row]] = {}
-        for row in rows:
-            if row.is_parameter:
-                self._rows.setdefault(row.key, []).append(row)
+        self._rows = grouped((row.key, row) for row in rows if row.is_parameter)
         names = Names()
         self._axes = {key: names.give(snake(key, "choice")) for key, rows in self._rows.items() if rows[0].is_choice}
         self._choices = {key: _choices(self._rows[key]) for key in self._axes}

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 
 from fieldscribe import wording
+from fieldscribe.grouping import grouped
 from fieldscribe.model import Base, Device, Document, Erratum, Found, Frame, Identification, Named, Point
 from fieldscribe.targets.docs.cells import Columns, Form
 from fieldscribe.targets.docs.scope import DocsScope, place_text
@@ -159,10 +160,7 @@ def missing(device: Device, form: Form) -> str:
 
 def codes(device: Device, form: Form) -> str:
     """Return the table of special codes that points share, by the type, group or format that declares them."""
-    sharing: dict[str, list[Point]] = {}
-    for point in device.points:
-        if point.shape.specials_of:
-            sharing.setdefault(point.specials_of, []).append(point)
+    sharing = grouped((point.specials_of, point) for point in device.points if point.shape.specials_of)
     rows = []
     for name, points in sharing.items():
         sharers = f"{form.target('codes', name)}: {counted(len(points), 'point')} of type {points[0].shape.wire_type}"

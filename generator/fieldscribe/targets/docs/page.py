@@ -7,6 +7,7 @@ from typing import NamedTuple
 import fieldscribe
 from fieldscribe import wording
 from fieldscribe.families import family
+from fieldscribe.grouping import grouped
 from fieldscribe.model import Command, Device, Message, Point
 from fieldscribe.targets.docs import device_tables
 from fieldscribe.targets.docs.bus import BusView, bus_view
@@ -134,10 +135,7 @@ def map_views(device: Device) -> Iterator[MapView]:
 def _bits(message: Message, points: Iterable[Point]) -> str:
     """Return the bits of a message with their signals, a row for each byte; `=` repeats the bit to the left."""
     by_word = {point.addresses[0]: point for point in points if point.telegram == message.name and point.addresses}
-    names: dict[int, list[str]] = {}
-    for field in message.fields:
-        for bit in field.bits:
-            names.setdefault(bit, []).append(link("point", by_word[field.word].item))
+    names = grouped((bit, link("point", by_word[field.word].item)) for field in message.fields for bit in field.bits)
     rows = []
     for byte in range(message.length):
         held = [MARKDOWN.lines(*names.get(8 * byte + bit, ["-"])) for bit in reversed(range(8))]

@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from fieldscribe import wording
 from fieldscribe.facts.table import Context
+from fieldscribe.grouping import grouped
 from fieldscribe.model import Enum, Group, Point
 from fieldscribe.targets.docs.cells import (
     LINE_BREAK,
@@ -71,9 +72,7 @@ class GroupView:
 
 def group_views(scope: DocsScope) -> Iterator[GroupView]:
     """Yield all groups that have points or a note, in the author's order."""
-    members: dict[str, list[Point]] = {}
-    for point in scope.device.points:
-        members.setdefault(point.terms.group, []).append(point)
+    members = grouped((point.terms.group, point) for point in scope.device.points)
     rows = _Rows(scope)
     for group in scope.device.groups:
         if group.name in members or group.note:

@@ -4,6 +4,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple, TypeAlias
 
+from fieldscribe.grouping import grouped
 from fieldscribe.model import Device, Enum, Flag, Point, Source, Special, Titles
 from fieldscribe.text import csv_cell
 
@@ -151,10 +152,7 @@ ERRATA = (
 
 def items_of(device: Device) -> Mapping[str, list[str]]:
     """Return the names in code of the points by name, one for each variant."""
-    items: dict[str, list[str]] = {}
-    for point in device.points:
-        items.setdefault(point.name, []).append(point.item)
-    return items
+    return grouped((point.name, point.item) for point in device.points)
 
 
 def erratum_rows(device: Device, encode: Encode) -> Iterator[tuple[str, ...]]:

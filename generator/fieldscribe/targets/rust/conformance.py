@@ -4,6 +4,7 @@ from collections.abc import Hashable, Iterable, Iterator
 from functools import partial
 
 from fieldscribe.families import family
+from fieldscribe.grouping import grouped
 from fieldscribe.model import Device
 from fieldscribe.targets.placeholders import TextTemplates, placeholders
 from fieldscribe.targets.rust.conformance_rows import Spot, bracketed, rows_of
@@ -84,9 +85,7 @@ def item_row(key: str, module: str, how: str, name: str) -> str:
 
 def arms(tables: Iterable[Table]) -> Iterator[tuple[str, Lines]]:
     """Yield each kind of vectors with the chain of tables that answer it, in lines as rustfmt lays them out."""
-    answering: dict[str, list[str]] = {}
-    for table in tables:
-        answering.setdefault(table.kind, []).append(f"{table.name}(vector)")
+    answering = grouped((table.kind, f"{table.name}(vector)") for table in tables)
     for kind, calls in answering.items():
         chain = [calls[0], *(f".or_else(|| {call})" for call in calls[1:])]
         on_one_line = len(chain) <= 2 or len("".join(chain)) <= _CHAIN

@@ -6,6 +6,7 @@ from itertools import groupby, takewhile
 
 from fieldscribe.arithmetic.exact import count_line
 from fieldscribe.arithmetic.words import fits, mask_of
+from fieldscribe.grouping import grouped
 from fieldscribe.lowered import Lowered, Operand, Rule
 from fieldscribe.model import Limit, Linear, Point, ScaleCase, Text
 from fieldscribe.resources import Render
@@ -273,8 +274,4 @@ def _sources(names: tuple[str, ...], points: Mapping[str, list[CratePoint]]) -> 
 
 def _points(scope: CrateScope) -> dict[str, list[CratePoint]]:
     """Return the points of each name and item."""
-    points: dict[str, list[CratePoint]] = {}
-    for subject in scope.subjects:
-        for name in {subject.item, subject.point.name}:
-            points.setdefault(name, []).append(subject)
-    return points
+    return grouped((name, subject) for subject in scope.subjects for name in {subject.item, subject.point.name})
