@@ -8,16 +8,19 @@ import operator
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from fieldscribe.grouping import grouped
 
-_TESTS: Mapping[str, Callable[[int, int], bool]] = {
+TESTS: Mapping[str, Callable[[Any, Any], bool]] = {
+    "==": operator.eq,
+    "!=": operator.ne,
     "<": operator.lt,
     "<=": operator.le,
     ">": operator.gt,
     ">=": operator.ge,
 }
+"""The comparison of each sign."""
 _VERSION = re.compile(r"(.*?)([0-9]+(?:\.[0-9]+)*)([a-z]?)")
 _LARGEST = 1 << 64
 
@@ -35,12 +38,9 @@ class Comparison:
 
     def holds(self, value: int | str) -> bool:
         """Return True if the comparison is true for a number or a name."""
-        if self.test == "!=":
-            return value != self.than[0]
-        compare = _TESTS.get(self.test)
-        if compare is None:
+        if self.test in ("==", "in"):
             return value in self.than
-        return isinstance(value, int) and compare(value, int(self.than[0]))
+        return (self.test == "!=" or isinstance(value, int)) and TESTS[self.test](value, self.than[0])
 
 
 Clause = tuple[Comparison, ...]

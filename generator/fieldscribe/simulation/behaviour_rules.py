@@ -1,12 +1,12 @@
 """The rules of a behaviour as data: targets, conditions, rates and delays."""
 
-import operator
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Literal
 
 from fieldscribe.arithmetic.codec import MOST_EXPONENT
+from fieldscribe.conditions import TESTS
 from fieldscribe.language.formula.syntax import Binary, Expression, Name, Negate, Number, Power10
 from fieldscribe.model import Flag, Titles
 
@@ -16,15 +16,6 @@ TIME = "time"
 
 Pair = tuple[Fraction, Fraction]
 """A number and its change per second."""
-
-_TESTS: Mapping[str, Callable[[Fraction, Fraction], bool]] = {
-    "==": operator.eq,
-    "!=": operator.ne,
-    "<": operator.lt,
-    "<=": operator.le,
-    ">": operator.gt,
-    ">=": operator.ge,
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +42,7 @@ class Test:
 
     def holds(self, number: Fraction) -> bool:
         """Return True if the comparison is true for a number."""
-        return number in self.constants if self.op == "in" else _TESTS[self.op](number, self.constants[0])
+        return number in self.constants if self.op == "in" else TESTS[self.op](number, self.constants[0])
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,10 +1,11 @@
 """Turns conditions of templates into those of descriptions: `isDefined(a)==0||b!=2`, `not exists(a) or b != 2`."""
 
 import ast
-import operator
 import re
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Protocol, TypeAlias
+from collections.abc import Sequence
+from typing import Protocol, TypeAlias
+
+from fieldscribe.conditions import TESTS
 
 Condition: TypeAlias = str | bool
 """A condition as a description writes it; or True or False if it is constant."""
@@ -12,10 +13,6 @@ Condition: TypeAlias = str | bool
 _LONGEST = 4000
 _SIGNS = {ast.Eq: "==", ast.NotEq: "!=", ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}
 _FLIPPED = {"<": ">", "<=": ">=", ">": "<", ">=": "<="}
-COMPARE: Mapping[str, Callable[[Any, Any], bool]] = dict(
-    zip(_SIGNS.values(), (operator.eq, operator.ne, operator.lt, operator.le, operator.gt, operator.ge), strict=True)
-)
-"""The functions of the comparison operators."""
 
 
 class Names(Protocol):
@@ -89,14 +86,14 @@ def _condition(node: ast.expr, names: Names) -> Condition:
 def _comparison(left: ast.expr, sign: str, right: ast.expr, names: Names) -> Condition:
     match _number(left), _number(right):
         case int() as first, int() as second:
-            return COMPARE[sign](first, second)
+            return TESTS[sign](first, second)
         case int(), None:
             return _comparison(right, _FLIPPED.get(sign, sign), left, names)
         case None, int() as number if isinstance(left, ast.Name):
             return names.compared(left.id, sign, number)
         case None, int() as number:
             condition = _condition(left, names)
-            one, zero = COMPARE[sign](1, number), COMPARE[sign](0, number)
+            one, zero = TESTS[sign](1, number), TESTS[sign](0, number)
             return one if one == zero else condition if one else opposite(condition)
     raise ValueError("a name is compared with no number")
 

@@ -3,9 +3,10 @@
 from collections.abc import Sequence
 from fractions import Fraction
 
+from fieldscribe.conditions import TESTS
 from fieldscribe.grouping import grouped
 from fieldscribe.importing.draft_text import DraftBlock, Names, scalar, snake, titles_text
-from fieldscribe.importing.wb.conditions import COMPARE, Condition, any_of, condition_of
+from fieldscribe.importing.wb.conditions import Condition, any_of, condition_of
 from fieldscribe.importing.wb.rows import Row
 from fieldscribe.importing.wb.templates import Texts
 from fieldscribe.wording.exact import number_text
@@ -42,7 +43,7 @@ class Parameters:
     def compared(self, name: str, sign: str, number: int) -> Condition:
         """Return the condition that compares a parameter with a number; a missing parameter equals no number."""
         if name in self._axes:
-            fits = {COMPARE[sign](choice, number) for choice in self._choices[name]}
+            fits = {TESTS[sign](choice, number) for choice in self._choices[name]}
             return f"{self._axes[name]}.number {sign} {number}" if len(fits) > 1 else True in fits
         rows = self._rows.get(name, [])
         if not rows:

@@ -6,9 +6,9 @@ from fractions import Fraction
 from math import ceil, floor, inf
 from typing import Any
 
+from fieldscribe.conditions import TESTS
 from fieldscribe.importing.cells import unit_in
 from fieldscribe.importing.draft_text import DraftPoint, scalar, titles_text
-from fieldscribe.importing.wb.conditions import COMPARE
 from fieldscribe.importing.wb.templates import Labels, Texts, number_of, objects
 from fieldscribe.text import line
 from fieldscribe.wording.exact import number_text
@@ -89,7 +89,7 @@ class Row:
     def compares(self, sign: str, value: int) -> bool:
         """Return False if the comparison with a value is false for all numbers of the point."""
         raw = self.raw(Fraction(value))
-        return not self.labels or any(COMPARE[sign](number, raw) for number in self.labels)
+        return not self.labels or any(TESTS[sign](number, raw) for number in self.labels)
 
     def read(self) -> DraftPoint:
         """Return the draft point without its condition and its names of numbers."""
