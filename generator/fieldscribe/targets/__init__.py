@@ -7,46 +7,53 @@ needs them, and add a line to `TARGETS`. `text.py` has the names, strings and co
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, Protocol
+from types import ModuleType
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device
-    from fieldscribe.resources import Render
     from fieldscribe.targets.identifiers import Names
 
-    class Target(Protocol):
-        """The interface of a target's module."""
 
-        SEES_TITLES: bool
-        """True if it gets titles, notes and sources too; the other targets get names only (code_view.py)."""
+class Target:
+    """What a target's module says; it leaves out what is as here."""
 
-        FAMILY_PART: str
-        """The part of a family without which it cannot compile a device; empty if it needs none."""
+    SEES_TITLES = False
+    """True if it gets titles, notes and sources too; the other targets get names only (code_view.py)."""
 
-        BEFORE_POINTS: tuple[str, ...]
-        """The words that may come between the names of device and point in identifiers: with them a proof replaces
-        the comparison of all identifiers. Empty if some identifier of a point lacks its full name.
-        """
+    FAMILY_PART = ""
+    """The part of a family without which it cannot compile a device; empty if it needs none."""
 
-        WEIGHT: float
-        """Its time relative to the others; two processes divide the targets of a large run by it."""
+    BEFORE_POINTS: tuple[str, ...] = ("",)
+    """The words that may come between the names of device and point in identifiers: with them a proof replaces
+    the comparison of all identifiers. Empty if some identifier of a point lacks its full name.
+    """
 
-        def outputs(self, device: Device, render: Render, *, tests: bool = True) -> Iterable[tuple[str, str]]:
-            """Return the files of a device: path below the output folder, and text.
+    WEIGHT: float
+    """Its time relative to the others; two processes divide the targets of a large run by it."""
 
-            A target of code leaves out its conformance `tests` for a project that vendors the device.
-            """
+    outputs: Callable[..., Iterable[tuple[str, str]]]
+    """Returns the files of a device, from it and `Render`: path below the output folder, and text.
 
-        def runtime(self, device: Device, *, tests: bool = True) -> Iterable[tuple[str, str]]:
-            """Return the source files beside them: path below the output folder, and path below the templates."""
+    A target of code leaves out its conformance `tests` for a project that vendors the device.
+    """
 
-        def identifiers(self, device: Device) -> Iterable[Names]:
-            """Return every name of the device in generated code; none if names cannot clash."""
+    def __init__(self, module: ModuleType) -> None:
+        vars(self).update(vars(module))
 
-        def device_name_taken(self, name: str) -> str:
-            """Return why no device may have that name, as the rest of a sentence; empty if it may."""
+    def runtime(self, _device: Device, **_ways: bool) -> Iterable[tuple[str, str]]:
+        """Return the source files beside them: path below the output folder, and path below the templates."""
+        return ()
+
+    def identifiers(self, _device: Device) -> Iterable[Names]:
+        """Return every name of the device in generated code; none if names cannot clash."""
+        return ()
+
+    def device_name_taken(self, _name: str) -> str:
+        """Return why no device may have that name, as the rest of a sentence; empty if it may."""
+        return ""
 
 
 TARGETS = (
@@ -62,9 +69,7 @@ TARGETS = (
 
 def target(name: str) -> Target:
     """Return the target of that name; its module is imported on first use."""
-    module: Any = import_module(f"fieldscribe.targets.{name}")
-    target_module: Target = module
-    return target_module
+    return Target(import_module(f"fieldscribe.targets.{name}"))
 
 
 def knows(name: str, device: Device) -> bool:

@@ -14,7 +14,6 @@ from fieldscribe.targets.c.layout import framed
 from fieldscribe.targets.c.point_templates import generated_points
 from fieldscribe.targets.c.scope import scope_of
 
-SEES_TITLES = False
 FAMILY_PART = "targets.c"
 WEIGHT = 0.9
 BEFORE_POINTS = ("", "read", "write", "store")
@@ -76,4 +75,4 @@ def runtime(device: Device, *, tests: bool = True, frames: FramesPart = "all") -
         yield f"c/{name}", f"c/runtime/{name}"
 
 
-__all__ = ["SEES_TITLES", "device_name_taken", "identifiers", "outputs", "runtime"]
+__all__ = ["device_name_taken", "identifiers", "outputs", "runtime"]

@@ -8,7 +8,6 @@ from itertools import chain
 from typing import TYPE_CHECKING
 
 from fieldscribe.model import Device
-from fieldscribe.targets.identifiers import Names
 
 if TYPE_CHECKING:
     from fieldscribe.resources import Render
@@ -17,9 +16,7 @@ if TYPE_CHECKING:
 
 SEES_TITLES = True
 
-FAMILY_PART = ""
 WEIGHT = 2.0
-BEFORE_POINTS = ("",)
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
@@ -68,21 +65,3 @@ def tables_of(scope: DocsScope) -> tuple[Table, Table, Table]:
 
     meanings = Table("meanings", MEANINGS, partial(meaning_rows, scope.device))
     return points_table(scope), meanings, Table("errata", ERRATA, partial(erratum_rows, scope.device))
-
-
-def runtime(device: Device) -> Iterable[tuple[str, str]]:
-    """Return nothing: documentation needs no runtime."""
-    del device
-    return ()
-
-
-def identifiers(device: Device) -> Iterable[Names]:
-    """Return nothing: pages have no identifiers that could clash."""
-    del device
-    return ()
-
-
-def device_name_taken(name: str) -> str:
-    """Return nothing: a page may have any name."""
-    del name
-    return ""

@@ -56,12 +56,10 @@ def _of_device(device: Device, names: Identifiers) -> Iterator[Names]:
         yield Names(constructor, Owner("variant", axis), (parameter(axis),))
 
 
-SEES_TITLES = False
 _RUNTIME = "fieldscribe_runtime"
 
 FAMILY_PART = "targets.calls"
 WEIGHT = 0.4
-BEFORE_POINTS = ("",)
 
 
 def outputs(device: Device, render: Render, *, tests: bool = True) -> Iterable[tuple[str, str]]:
@@ -108,4 +106,4 @@ def runtime(device: Device, *, tests: bool = True) -> Iterable[tuple[str, str]]:
         yield f"python/{_RUNTIME}/{name}", f"python/runtime/{_RUNTIME}/{name}"
 
 
-__all__ = ["SEES_TITLES", "device_name_taken", "identifiers", "outputs", "runtime"]
+__all__ = ["device_name_taken", "identifiers", "outputs", "runtime"]

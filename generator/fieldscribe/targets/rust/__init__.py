@@ -7,13 +7,10 @@ from fieldscribe.resources import Render, runtime_files
 from fieldscribe.targets.rust.identifiers import device_name_taken, identifiers
 from fieldscribe.targets.rust.subjects import scope_of
 
-SEES_TITLES = False
-
 _SOURCES = ("points", "enums", "flags", "with")
 
 FAMILY_PART = "targets.rust"
 WEIGHT = 0.6
-BEFORE_POINTS = ("",)
 
 
 def outputs(device: Device, render: Render, *, tests: bool = True) -> Iterable[tuple[str, str]]:
@@ -46,4 +43,4 @@ def runtime(device: Device, *, tests: bool = True) -> Iterator[tuple[str, str]]:
             yield f"rust/{crate}/{name}", f"rust/runtime/{crate}/{name}"
 
 
-__all__ = ["SEES_TITLES", "device_name_taken", "identifiers", "outputs", "runtime"]
+__all__ = ["device_name_taken", "identifiers", "outputs", "runtime"]

@@ -13,10 +13,8 @@ from fieldscribe.targets.typescript.identifiers import Identifiers, device_name_
 from fieldscribe.text import js_comment, line
 from fieldscribe.wording import open_texts
 
-SEES_TITLES = False
 FAMILY_PART = "targets.calls"
 WEIGHT = 0.7
-BEFORE_POINTS = ("",)
 
 _RUNTIME = "fieldscribe-runtime"
 
@@ -98,4 +96,4 @@ def _package(device: Device, names: Identifiers) -> dict[str, object]:
     }
 
 
-__all__ = ["SEES_TITLES", "device_name_taken", "identifiers", "outputs", "runtime", "scripts"]
+__all__ = ["device_name_taken", "identifiers", "outputs", "runtime", "scripts"]

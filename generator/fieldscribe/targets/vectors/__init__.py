@@ -9,12 +9,8 @@ from operator import eq
 from fieldscribe.code_view import DeviceCache
 from fieldscribe.model import Device
 from fieldscribe.resources import Render
-from fieldscribe.targets.identifiers import Names
 
-SEES_TITLES = False
-FAMILY_PART = ""
 WEIGHT = 0.9
-BEFORE_POINTS = ("",)
 
 _last: DeviceCache[str] = DeviceCache(eq)
 """Vectors as text, shared by a page and a file."""
@@ -31,21 +27,3 @@ def text_of(device: Device) -> str:
     from fieldscribe.targets.vectors.collection import collect
 
     return _last.of(device, lambda device: collect(device).text(device.id, device.version, device.digest))
-
-
-def runtime(device: Device) -> Iterable[tuple[str, str]]:
-    """Return nothing: no files are copied beside the vectors."""
-    del device
-    return ()
-
-
-def identifiers(device: Device) -> Iterable[Names]:
-    """Return nothing: vectors have the names of the description."""
-    del device
-    return ()
-
-
-def device_name_taken(name: str) -> str:
-    """Return nothing: a file of vectors may have any name."""
-    del name
-    return ""
