@@ -10,6 +10,7 @@ from types import ModuleType
 
 from fieldscribe.model import Device
 from fieldscribe.resources import render, templates_dir
+from fieldscribe.targets import Target
 
 from support.places import ROOT
 
@@ -36,7 +37,7 @@ def copy_compiler(package: Path) -> Path:
 
 def generate(device: Device, out: Path, *targets: ModuleType) -> Path:
     """Write the outputs of these targets for a device, and their runtimes; return the folder."""
-    for target in targets:
+    for target in map(Target, targets):
         copies = {path: (templates_dir() / source).read_text("utf-8") for path, source in target.runtime(device)}
         write_files({**dict(target.outputs(device, render)), **copies}, out)
     return out
