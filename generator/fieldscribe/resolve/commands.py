@@ -8,7 +8,7 @@ from fieldscribe.arithmetic.texts import fits
 from fieldscribe.diagnostics import Span
 from fieldscribe.families import families
 from fieldscribe.language.nodes import Map, Seq
-from fieldscribe.language.numbers import is_whole_number
+from fieldscribe.language.numbers import integer_in
 from fieldscribe.language.suggestions import space_hint
 from fieldscribe.model import Bus, Command, Identification, Point, SteppedCommand, Variant
 from fieldscribe.resolve.bus import NO_BUS, reader_of
@@ -192,7 +192,7 @@ def _is_there(point: Point, variant: Variant | None, scope: Scope) -> bool:
 
 def _raw(scope: Scope, names: Mapping[str, int], item: Any, span: Span) -> int | None:
     """Return the raw number of a name or a number; None after a finding."""
-    if isinstance(item, str) and not is_whole_number(item):
+    if isinstance(item, str) and integer_in(item) is None:
         if item not in names and names:
             scope.unknown("entry", item, span, names)
         elif item not in names:

@@ -16,7 +16,7 @@ from fieldscribe.language.formula.syntax import FormulaError
 from fieldscribe.language.keys import inherited
 from fieldscribe.language.keys.places import GROUP
 from fieldscribe.language.nodes import Map
-from fieldscribe.language.numbers import is_whole_number, plain_number
+from fieldscribe.language.numbers import integer_in, plain_number
 from fieldscribe.model import Titles, Variant, item_of, type_info
 from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.values import integer, interval
@@ -331,7 +331,7 @@ def _axis(scope: Scope, row: PointFacts, plural: str, singular: str) -> _Axis | 
         counter, ends = counted["point"] or "", None if most is None else (int(counted["low"] or 1), most)
     elif ".." in text:
         ends = interval(text, span, scope.report)
-    elif isinstance(raw, str) and not is_whole_number(raw):
+    elif isinstance(raw, str) and integer_in(raw) is None:
         hint = f"write a count, an interval such as `{plural}: 0..1`, a point that counts (`1..phases`), or `to end`"
         scope.report.error("bad-number", f"`{shortened(text)}` is no count of elements", span, hint)
         ends = None
