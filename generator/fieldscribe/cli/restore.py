@@ -97,7 +97,7 @@ def _differs(live: Live, item: str, raw: int) -> bool:
 
 
 def _take_from(wanted: Snapshot, arguments: Namespace) -> None:
-    """Set what neither the command line nor a station says from the snapshot."""
+    """Take from the snapshot what neither the command line nor a station gives."""
     if arguments.device is None:
         arguments.device = wanted.device
         arguments.line = arguments.line or wanted.line

@@ -1,6 +1,6 @@
 /* The calculator of a point: value, raw number, words, bits and frames, each from any other, by the generated code. */
 
-/** Fill the calculator of a point; it stays hidden for what has no code. @param {HTMLElement | null} place @param {Point} point */
+/** Fill the calculator of a point; it stays hidden for points without generated code. @param {HTMLElement | null} place @param {Point} point */
 function fillCalculator(place, point) {
   const codec = codecOf(point);
   if (!place || !codec || !codec.access) return;
@@ -10,7 +10,7 @@ function fillCalculator(place, point) {
   calculator.listenToBits();
 }
 
-/** What was entered last stays for a visit: the unit, the framing, other points, and the numbers that addresses depend on. */
+/** The last entries, kept while the page is open: unit, framing, other points, and the numbers that addresses depend on. */
 /** @type {{ unit: number | null, framing: string, pkw?: number, others: Record<string, string>, numbers: Record<string, number | undefined> }} */
 const entered = { unit: null, framing: "", others: {}, numbers: {} };
 
@@ -19,7 +19,7 @@ class Calculator {
   constructor(point, codec) {
     this.point = point;
     this.codec = codec;
-    this.isCyclic = codec.at.telegram !== undefined || codec.at.space === "signal"; // nobody asks for it by itself
+    this.isCyclic = codec.at.telegram !== undefined || codec.at.space === "signal"; // no request reads it alone
     this.isBig = codec.form.wire.isBig;
     this.entries = codec.names && !codec.facts.bits && point.shared.enum !== undefined && !point.shared.digits ? device.enums[point.shared.enum].entries : null;
     this.needs = [...new Set([...codec.scaleNeeds, ...(codec.limitNeeds ?? [])])];
@@ -35,7 +35,7 @@ class Calculator {
     return firstGood(starts, (raw) => this.test(raw)) ?? starts[0];
   }
 
-  /** Give the line its usual settings, and other points raw numbers with which the scale gives a value. */
+  /** Set the line to its usual settings, and other points to raw numbers for which the scale gives a value. */
   settle() {
     const { profile } = generatedCode().Device.table.facts;
     const [low, high] = profile.units;
@@ -99,7 +99,7 @@ class Calculator {
     return element("label", {}, element("span", {}, "Name"), list);
   }
 
-  /** A field for another point with what it means: its raw number, or the value of a float. @param {string} name */
+  /** Return a field for another point and the meaning of its content: a raw number, or the value of a float. @param {string} name */
   need(name) {
     const other = this.other(name);
     const input = element("input", { type: "text", value: entered.others[name], spellcheck: false, autocomplete: "off" });
@@ -125,7 +125,7 @@ class Calculator {
     return Object.fromEntries(this.needs.map((name) => [name, this.rawOf(name)]));
   }
 
-  /** The variant of the point, else those that the reader chose, of other axes the first: as far as the point exists then. */
+  /** Return a value for each axis of variants: the point's own, else the reader's choice, else the first in which the point exists. */
   variants() {
     const [axis, value] = this.point.variant.split("=");
     const [only, kept] = this.codec.facts.onlyFor ?? [];
@@ -139,7 +139,7 @@ class Calculator {
   /** @param {() => any} read @param {HTMLElement} source */
   take(read, source) {
     this.typed = undefined;
-    /** Reads the value again, which stays when other points change. */
+    /** Reads the entered value again when other points change. */
     this.again = source === this.value?.input ? read : undefined;
     try {
       this.raw = read();
@@ -223,7 +223,7 @@ class Calculator {
     void this.exchange(raws ?? {}, problems.length === 0);
   }
 
-  /** What the set flags are called, and the numbers of those of several bits. */
+  /** Return the names of the set flags, and the numbers of flags of several bits. */
   flagNames() {
     if (this.point.shared.word === undefined) return "";
     const now = this.bitsNow();
@@ -280,7 +280,7 @@ class Calculator {
     this.take(() => this.pattern(this.bitsNow() ^ (1n << BigInt(bit))), source);
   }
 
-  /** Let bits in the drawings be clicked, beside whose lines their names stand. */
+  /** Make the bits in the drawings clickable. */
   listenToBits() {
     for (const box of document.querySelectorAll("#detail [data-bit].bit")) {
       const bit = Number(/** @type {SVGElement} */ (box).dataset.bit) - (this.point.shared.low ?? 0);
@@ -329,7 +329,7 @@ class Calculator {
     return element("div", { className: "fields" }, ...fields);
   }
 
-  /** The numbers that say where this point and those that it needs are, with their ranges. */
+  /** Return the numbers on which the addresses of this point and of those that it needs depend, with their ranges. */
   numbers() {
     return Object.assign({}, ...[this.codec, ...this.needs.map((name) => this.other(name))].map(({ at }) => baseNumbers(at.base)));
   }
@@ -358,7 +358,7 @@ class Calculator {
     const { codec, raw } = this;
     const isAsked = device.telegrams.some(([name, , direction]) => name === codec.at.telegram && direction === "request");
     try {
-      answeringDevice({ unit: entered.unit, framing: device.family, variants: this.variants() }); // which refuses units that cannot be
+      answeringDevice({ unit: entered.unit, framing: device.family, variants: this.variants() }); // refuses impossible units
       const frames = cyclicFrames(codec, this.wordsOf(raw), raw, entered.unit ?? 0);
       const rows = frames.map((frame) => frameRow(isAsked ? "To the device" : "From the device", frameText(frame)));
       this.frames.replaceChildren(...rows, rows.length ? element("p", { className: "soft" }, "All other words are 0 here.") : "");
@@ -367,7 +367,7 @@ class Calculator {
     }
   }
 
-  /** The exchanges of an operation on a device that holds this number; `reply` is answered instead of its own.
+  /** Return the exchanges of an operation with a device that holds this number; `reply` replaces the answer of the device.
    * @param {any} raw @param {any} raws @param {any} work @param {any} [reply] */
   async sent(raw, raws, work, reply = null) {
     const { codec } = this;
@@ -392,7 +392,7 @@ class Calculator {
     }
   }
 
-  /** The exchange that reads, with a reply that can be edited: what a device sent says what it means. @param {any} done */
+  /** Return the exchange that reads, with an editable reply, to see the meaning of what a device sent. @param {any} done */
   readBox(done) {
     const box = exchangeBox("Read", done);
     const reply = box.querySelector(".reply input");
@@ -447,15 +447,15 @@ function shownValue(codec, raw, raws) {
   return typeof value === "object" && value !== null && !(value instanceof Date) ? codec.told(raw, raws) : value instanceof Date ? value.toISOString() : String(value);
 }
 
-/** Whether people know a point by its value: the raw number of a float says nothing. @param {Codec} codec */
+/** Return true if people know a point by its value, as with floats, whose raw numbers tell them nothing. @param {Codec} codec */
 function isFloat(codec) {
   return device.byName.get(codec.item)?.shared.form === "float";
 }
 
 const MOST_CHOICES = 400;
 
-/** Yield raw numbers to begin with: the default, then `first` (of floats 100 times that), 0, and the ends of what is allowed
- * and named.
+/** Yield raw numbers to start with: the default, `first` (for floats 100 times that), 0, and the ends of the allowed
+ * and the named numbers.
  * @param {Codec} codec @param {number} [first] */
 function* startsOf(codec, first = 0) {
   const { form, facts, rawLimits: [low, high], names } = codec;
@@ -508,7 +508,7 @@ function numberText(text, unit = "") {
   return Number(plain);
 }
 
-/** Return what generated code raised, or that a text is no number; raise any other error. @param {any} error @returns {Error} */
+/** Return an error of the generated code or of parsing a number; throw any other error. @param {any} error @returns {Error} */
 function knownError(error) {
   if (error instanceof generatedCode().FieldscribeError || error instanceof SyntaxError) return error;
   throw error;

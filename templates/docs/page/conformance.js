@@ -1,6 +1,6 @@
 /* The vectors of the device, run in the page: what generated code must give, computed from the description alone. */
 
-const RUN_TIME = 30; // milliseconds of running before the page may do something else
+const RUN_TIME = 30; // milliseconds of work until the page reacts to the reader again
 
 /** The vectors that the page carries; empty if it has none. */
 function carriedVectors() {

@@ -4,13 +4,13 @@
 
 const MOST_LINES = 100_000;
 const SHOWN_AT_ONCE = 100;
-/** The field holds so much of a long paste: browsers stand still for seconds where it holds all. */
+/** The most characters that the field shows: with all of a long paste, browsers freeze for seconds. */
 const MOST_IN_FIELD = { lines: 2000, signs: 200_000 };
-const SLICE_TIME = 20; // milliseconds between two looks at what the reader does
+const SLICE_TIME = 20; // milliseconds of work until the page reacts to the reader again
 
 const USS_FRAMINGS = { pkw: "parameter part alone", pzd: "process data of the master", "pzd response": "process data of the device", broadcast: "broadcast alone" };
 
-/** The decoders by family; a page has that of its family alone. @type {Record<string, () => any>} */
+/** The decoder of each family; a page has only that of its own. @type {Record<string, () => any>} */
 const DECODERS = { modbus: () => ModbusDecoder, uss: () => UssDecoder, can: () => CanDecoder };
 
 /** @param {object} settings @returns {FrameDecoder} */
@@ -18,7 +18,7 @@ function newDecoder(settings) {
   return new (DECODERS[device.family]())(settings);
 }
 
-/** What a reader pasted and set stays for a visit. */
+/** The pasted text and the settings, kept while the page is open. */
 const pastedBefore = { text: "", known: "", framing: "", pkw: "", pzd: "", onlyWrong: false };
 
 /** Yield the frames in pasted text, one after the other. @param {string} text @param {FrameDecoder} decoder @returns {Generator<Heard>} */
@@ -63,7 +63,7 @@ function pastedText({ id, data, remote }) {
   return `${id.toString(16).toUpperCase().padStart(id > 0x7ff ? 8 : 3, "0")}#${remote ? "R" : hexBytes(data).replaceAll(" ", "")}`;
 }
 
-/** Whether a frame is damaged, or against the manual. @param {Heard} heard */
+/** Return true if a frame is damaged or contradicts the manual. @param {Heard} heard */
 function isWrong({ faults, findings, said, kind }) {
   return kind === "exception" || faults.length + findings.length > 0 || said.some(({ finding }) => finding);
 }
@@ -73,7 +73,7 @@ function knownNumbers(text) {
   /** @type {Record<string, number>} */
   const known = {};
   for (const [, name, number] of text.matchAll(/([\w.[\]]+)\s*=\s*([^\s,;]+)/g)) {
-    try { known[name] = /^-?\d+\.\d+$/.test(number) ? Number(number) : Number(wholeText(number, false)); } catch { /* it is typed on */ }
+    try { known[name] = /^-?\d+\.\d+$/.test(number) ? Number(number) : Number(wholeText(number, false)); } catch { /* the entry is not complete yet */ }
   }
   return known;
 }
@@ -151,7 +151,7 @@ class DecoderView {
     return choiceField(text, options, pastedBefore[key], (/** @type {string} */ value) => { pastedBefore[key] = value; void this.decode(); }, usual);
   }
 
-  /** Decode all that is pasted; what is typed meanwhile begins anew. */
+  /** Decode the pasted text; an edit meanwhile starts again. */
   async decode() {
     const run = (this.run += 1);
     const number = (/** @type {string} */ text) => (text === "" ? undefined : Number(text));

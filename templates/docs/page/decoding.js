@@ -1,6 +1,6 @@
 /* Frames of each family in words: what a frame is, what it carries, and what is wrong with it by the manual. */
 
-/** A decoded frame; `faults` say what is damaged, `findings` what is against the manual.
+/** A decoded frame; `faults` say what is damaged, `findings` what contradicts the manual.
  * @typedef {{ kind: string, unit: number | null, summary: string, said: Said[], checks: string, faults: string[], findings: string[],
  *   notes: string[], exception?: number }} Decoded */
 
@@ -12,7 +12,7 @@ const NO_ANSWER = {
   wrong_length: "it has too few words for its response",
 };
 
-/** Decodes the frames of a device one after the other; a class for each family says in `decode` what they are. */
+/** Decodes the frames of a device in order; each family has a class with its own `decode`. */
 class FrameDecoder {
   /** @param {{ known?: Record<string, number>, framing?: string, pkw?: number, pzd?: number }} settings */
   constructor(settings) {
@@ -24,11 +24,11 @@ class FrameDecoder {
     this.states = new Map();
     /** The requests without an answer. @type {Map<string, any>} */
     this.open = new Map();
-    /** What collects the words of telegrams. @type {Map<string, any>} */
+    /** The collectors of the words of telegrams. @type {Map<string, any>} */
     this.receivers = new Map();
   }
 
-  /** Begin anew, as on another line. */
+  /** Forget all earlier frames, as on another line. */
   forget() {
     for (const kept of [this.states, this.open, this.receivers]) kept.clear();
   }

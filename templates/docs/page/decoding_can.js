@@ -1,7 +1,7 @@
 /* Frames of CAN in words: telegrams, signals, and parameters that are asked for by messages. */
 
 class CanDecoder extends FrameDecoder {
-  /** The messages with the identifier of a frame, with the unit. @param {any} frame @returns {[any, number | null][]} */
+  /** Return the messages with the identifier of a frame, each with its unit. @param {any} frame @returns {[any, number | null][]} */
   senders(frame) {
     const [low, high] = this.profile.units;
     return this.profile.messages.flatMap((/** @type {any} */ message) => {
@@ -65,7 +65,7 @@ class CanDecoder extends FrameDecoder {
     return sums.length ? checkText(sums.map((/** @type {any} */ { at }) => frame.data[at]), due) : "";
   }
 
-  /** Words of a telegram, which may come in several frames.
+  /** Decode words of a telegram, which may take several frames.
    * @param {any} message @param {number} unit @param {any} frame @param {any} telegram @param {string} own @param {Partial<Decoded>} facts @returns {Decoded} */
   cyclic(message, unit, frame, telegram, own, facts) {
     const { TelegramReceiver } = generatedCode();
@@ -136,7 +136,7 @@ class CanDecoder extends FrameDecoder {
     return decodedFrame({ ...facts, findings, said, summary: `${own}: parameter ${spanText(address, address)}` });
   }
 
-  /** One word of a parameter. @param {Spot} spot @param {number} address @param {number | null} word @param {UnitState} state @param {boolean} written @returns {Said} */
+  /** Decode one word of a parameter. @param {Spot} spot @param {number} address @param {number | null} word @param {UnitState} state @param {boolean} written @returns {Said} */
   word({ point, codec, addresses }, address, word, state, written) {
     if (word === null) return namedPoint(point, "", codec && !codec.decode ? "it is write only" : "");
     if (!codec) return namedPoint(point, `carries ${shortAddress(word)}; documented only`);

@@ -1,12 +1,12 @@
 /* Frames of Modbus in words: requests, replies, echoes and exceptions. The request before a reply tells what it holds. */
 
-/** Return the name of a function, its space, and the most items of a request: none where it is not known. @param {number} code */
+/** Return the name of a function, its space, and the most items of a request; an unknown function has none. @param {number} code */
 function functionOf(code) {
   const [name = "", space = "", most = 0] = device.bus.protocol.functions[code] ?? [];
   return { name, space, most };
 }
 
-/** A frame around what follows the unit. @typedef {{ framing: string, data: Uint8Array, unit: number, pdu: Uint8Array, transaction: number, fault: string, checks: string }} Unwrapped */
+/** A frame without its wrapping; `pdu` begins with the function code. @typedef {{ framing: string, data: Uint8Array, unit: number, pdu: Uint8Array, transaction: number, fault: string, checks: string }} Unwrapped */
 
 /** @param {string} framing @param {Uint8Array} data @returns {Unwrapped} */
 function unwrapModbus(framing, data) {
@@ -31,7 +31,7 @@ function unwrapModbus(framing, data) {
   return { ...made, fault: "the length in the header is wrong", checks: `wrong: it says ${size} bytes follow, ${data.length - 6} do` };
 }
 
-/** The length of a request or of a reply from the function on; 0 if it is none. @param {Uint8Array} pdu */
+/** Return the length of a request or of a reply from its function code on; 0 if it is neither. @param {Uint8Array} pdu */
 function requestSize(pdu) {
   if (!functionOf(pdu[0]).most) return 0;
   return pdu[0] < 15 ? 5 : pdu.length > 5 ? 6 + pdu[5] : 0;
@@ -56,7 +56,7 @@ function valuesIn(code, data) {
   return generatedCode().wordsOfBytes(data.subarray(0, data.length & ~1));
 }
 
-/** Return the request in bytes from the function on, or why it is none. @param {number} unit @param {Uint8Array} pdu @returns {any} */
+/** Return the request in bytes that begin with a function code, or why they are none. @param {number} unit @param {Uint8Array} pdu @returns {any} */
 function modbusRequestIn(unit, pdu) {
   const code = pdu[0];
   const name = hexText(code, 2);
@@ -140,7 +140,7 @@ class ModbusDecoder extends FrameDecoder {
     return typeof parsed === "string" ? this.unmatched(unwrapped, parsed, open, status) : this.request({ ...parsed, transaction: unwrapped.transaction });
   }
 
-  /** What a frame brings as the answer to the open request, or why it is none. @param {Unwrapped} unwrapped @param {any} open
+  /** Return the values of a frame that answers the open request, or why it does not. @param {Unwrapped} unwrapped @param {any} open
    * @returns {{ values?: number[], status: string }} */
   answer({ framing, unit, pdu, transaction }, open) {
     const { FrameError, parseModbusReply } = generatedCode();
@@ -189,7 +189,7 @@ class ModbusDecoder extends FrameDecoder {
     return { ...made, summary: `${summary}; refused was ${this.spanOf(open)}`, said: this.said(open, open.values.length ? open.values : undefined) };
   }
 
-  /** A reply that does not fit the open request, with what can be known of it.
+  /** Decode as much as possible of a reply that does not fit the open request.
    * @param {Unwrapped} unwrapped @param {string} why @param {any} open @param {string} status @returns {Decoded} */
   unmatched({ unit, pdu }, why, open, status) {
     const faults = open ? [`it does not answer the request: ${noAnswer(status)}`] : [];
@@ -226,7 +226,7 @@ class ModbusDecoder extends FrameDecoder {
     return `${space} ${spanText(address, last)}, ${countedText(count, space === "coil" || space === "discrete" ? "bit" : "word")}`;
   }
 
-  /** What a request names, writes, or its reply brings. @param {any} request @param {number[]} [words] @param {boolean} [isReply] @returns {Said[]} */
+  /** Return the items that a request asks for or writes, or that its reply holds. @param {any} request @param {number[]} [words] @param {boolean} [isReply] @returns {Said[]} */
   said({ unit, function: code, address, count }, words, isReply = false) {
     if (code === 8) return [{ text: `test data ${hexNumbers(words ?? [])}; the device sends it back unchanged` }];
     const written = code > 4;
@@ -239,7 +239,7 @@ class ModbusDecoder extends FrameDecoder {
     return step ? [step] : [...spanSaid(places, state, span), ...commandsAt(span)];
   }
 
-  /** The places of points, where a unit has shown its blocks in these. @param {number} unit @returns {Places} */
+  /** Return the places of points, at the blocks that the unit has shown so far. @param {number} unit @returns {Places} */
   placesOf(unit) {
     return this.state(unit).places ?? this.places;
   }
@@ -253,7 +253,7 @@ class ModbusDecoder extends FrameDecoder {
     if (state.blocks.take(address, words)) state.places = new Places({ ...state.blocks.starts, ...this.settings.known }, state.blocks.lasts);
   }
 
-  /** Whether an address may be a Modicon number, which counts from 1. @param {any} request @returns {string[]} */
+  /** Return a remark if an address may be a Modicon number, which counts from 1. @param {any} request @returns {string[]} */
   offByOne({ unit, function: code, address, count }) {
     const { space } = functionOf(code);
     const starting = (/** @type {number} */ at) => this.placesOf(unit).at(space, at).filter((spot) => Math.min(...spot.addresses) === at);
@@ -281,7 +281,7 @@ class FoundBlocks {
     this.lasts = {};
   }
 
-  /** Take words that the unit reported; return whether they move a base. @param {number} address @param {number[]} words */
+  /** Take words that the unit reported; return true if they move a base. @param {number} address @param {number[]} words */
   take(address, words) {
     const { chain, bases } = generatedCode().Device.table.facts;
     const kept = (/** @type {number} */ at) => {
@@ -316,7 +316,7 @@ function noAnswer(status) {
   return NO_ANSWER[/** @type {keyof NO_ANSWER} */ (status)] ?? status;
 }
 
-/** The command that is written here: of several the one with this value.
+/** Return the command at this address; of several, the one with this value.
  * @param {{ space: string, address: number, words?: number[], written: boolean, learned: boolean }} span @returns {Said[]} */
 function commandsAt({ space, address, words, written }) {
   const here = written ? device.commands.filter((command) => command[1] === space && command[2] === address) : [];
@@ -326,7 +326,7 @@ function commandsAt({ space, address, words, written }) {
   return [{ text: `command ${name}: ${[allTitles(title), finding].filter(Boolean).join("; ")}`, finding }];
 }
 
-/** The step of a command that writes these words, if one does. @param {string} space @param {number} address
+/** Return the step of a command that writes these words, if there is one. @param {string} space @param {number} address
  * @param {number[]} words @returns {Said | undefined} */
 function stepSaid(space, address, words) {
   for (const [place, given] of Object.values(generatedCode().Device.table.facts.commands ?? {}).entries()) {
@@ -343,7 +343,7 @@ function stepSaid(space, address, words) {
   return undefined;
 }
 
-/** The arguments within their ends for which a step has these words. @param {any[]} due
+/** Return the arguments, within their limits, with which a step writes these words. @param {any[]} due
  * @param {number[]} words @param {Record<string, [number, number]>} ends */
 function stepNumbers(due, words, ends) {
   /** @type {Record<string, number>} */

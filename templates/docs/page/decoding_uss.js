@@ -8,7 +8,7 @@ class UssDecoder extends FrameDecoder {
     this.asked = new Set();
   }
 
-  /** Begin anew, as on another line. */
+  /** Forget all earlier frames, as on another line. */
   forget() {
     super.forget();
     this.asked.clear();
@@ -20,7 +20,7 @@ class UssDecoder extends FrameDecoder {
     return cutApart(pasted.data, sound, 4).map((data) => ({ ...pasted, data }));
   }
 
-  /** How the words of a telegram are divided: as the reader says, else by their number and the request before.
+  /** Return how the words of a telegram are divided: as the reader says, else by their number and the request before.
    * @param {number} words @param {any} open @returns {{ pkw: number, pzd: number, isSure: boolean }} */
   link(words, open) {
     const { pkw, pzd } = this.settings;
@@ -53,7 +53,7 @@ class UssDecoder extends FrameDecoder {
     return { ...made, unit, faults: [...faults, ...made.faults], checks: checkText(lacksCheck ? [] : data.subarray(-1), [check]), summary: `USS, unit ${unit}: ${made.summary}` };
   }
 
-  /** Words of one part alone, as manuals print them. @param {string} framing @param {Uint8Array} data @param {boolean} isReply @returns {Decoded} */
+  /** Decode the words of a single part, as manuals print them. @param {string} framing @param {Uint8Array} data @param {boolean} isReply @returns {Decoded} */
   bare(framing, data, isReply) {
     const words = wordsIn(data);
     const faults = data.length % 2 ? [`the part is made of words of two bytes, here are ${data.length} bytes`] : [];

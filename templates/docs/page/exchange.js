@@ -1,9 +1,9 @@
 /* A line that answers by itself: it shows what generated code sends, and what a device would reply. */
 
-/** What was made of the code of the device. @type {{ code?: any, points?: Map<string, Codec> }} */
+/** The generated code of the device, once it is loaded. @type {{ code?: any, points?: Map<string, Codec> }} */
 const opened = {};
 
-/** Return the code of the device, which is made when it is first needed; null for a family without it. */
+/** Return the code of the device, which is loaded at its first use; null for a family without code. */
 function generatedCode() {
   if (opened.code === undefined) opened.code = globalThis.openCode?.() ?? null;
   return opened.code;
@@ -17,7 +17,7 @@ function codecOf(point) {
   return opened.points.get(point.name) ?? null;
 }
 
-/** Return the numbers that say where a base is, with their ranges: those that a device is given, else the address of a block
+/** Return the numbers on which a base depends, with their ranges: those that are given, else the address of a block
  * that is found. @param {string | undefined} name @returns {Record<string, [number, number]>} */
 function baseNumbers(name) {
   const { bases = {}, given } = generatedCode().Device.table.facts;
@@ -36,7 +36,7 @@ function baseAddress(name, numbers) {
   return Number.isNaN(sum) ? undefined : sum;
 }
 
-/** A line on which everything holds what `memory` has by place; `exchanges` are the frames that went over it. */
+/** A line whose device holds the words in `memory`; `exchanges` are the frames that went over it. */
 class AnsweringLine {
   /** @param {string} framing */
   constructor(framing) {
@@ -53,7 +53,7 @@ class AnsweringLine {
 
   /** @param {any} at @param {number[]} words @param {number} start what its addresses count from */
   hold(at, words, start) {
-    const index = this.framing === "uss" ? at.index : 0; // in other frames the address alone tells the place
+    const index = this.framing === "uss" ? at.index : 0; // elsewhere the address alone is the place
     const ascending = [...at.addresses].sort((one, other) => one - other);
     ascending.forEach((address, each) => this.memory.set(this.key(at.space, start + address, index), words[each] ?? 0));
   }
@@ -199,13 +199,13 @@ function hexBytes(bytes) {
   return [...bytes].map((byte) => byte.toString(16).toUpperCase().padStart(2, "0")).join(" ");
 }
 
-/** Return the frame as text: bytes, for CAN behind the identifier. @param {any} frame */
+/** Return the frame as text: bytes, for CAN after the identifier. @param {any} frame */
 function frameText(frame) {
   if (frame instanceof Uint8Array) return hexBytes(frame);
   return frame ? `${frame.id.toString(16).toUpperCase().padStart(frame.extended ? 8 : 3, "0")}#${hexBytes(frame.data).replaceAll(" ", "")}` : "";
 }
 
-/** Return the frame that a text says, written as `frameText` does or with other signs between the bytes; null if it says none.
+/** Return the frame in a text, as `frameText` writes it or with other separators; null if it has none.
  * @param {string} text @param {boolean} isCan */
 function frameOf(text, isCan) {
   const can = /^\s*([0-9a-f]{3,8})\s*#\s*([0-9a-f\s]*)$/i.exec(text);

@@ -1,15 +1,15 @@
-/* What numbers in frames mean: points at their addresses with values, bits, special codes, and what is wrong with them. */
+/* The meaning of numbers in frames: points at their addresses, values, bits, special codes, and faults. */
 
-/** One thing that a frame says: a point or what is no point, the text, a finding against the manual, bits by label.
+/** One item of a frame: a point or something else, its text, a contradiction to the manual, and bits by label.
  * @typedef {{ point?: string, name?: string, label?: string, raw?: any, value?: string, text: string, finding?: string, doubt?: string, bits?: [string, string][] }} Said */
 
-/** Where a point lies for frames that read or write it.
+/** The addresses at which frames read or write a point.
  * @typedef {{ point: any, codec: any, addresses: number[], reads: boolean, writes: boolean }} Spot */
 
-/** What the frames of a unit brought: raw numbers that scales and limits need, and words of parameters.
+/** What is known of a unit from its frames: raw numbers that scales and limits need, and words of parameters.
  * @typedef {{ raws: Record<string, any>, words: Map<number, number>, blocks?: any, places?: Places }} UnitState */
 
-/** Finds points by their addresses; `known` has what the reader gives: raw numbers of points, values of floats, and numbers
+/** Finds points by their addresses; `known` is what the reader gives: raw numbers of points, values of floats, and numbers
  * that addresses depend on. */
 class Places {
   /** @param {Record<string, number>} known @param {Record<string, number>} [lasts] the last addresses of bases */
@@ -65,7 +65,7 @@ class Places {
     return this.spots.get(`${space} ${address}${index}`) ?? [];
   }
 
-  /** The points that an address means by what the unit is known to have selected. @param {UnitState} state @param {string} space
+  /** Return the points that an address means with the present selection of the unit. @param {UnitState} state @param {string} space
    * @param {number} address @returns {Spot[]} */
   meant(state, space, address) {
     const isHeld = (/** @type {[string, number]} */ [name, raw]) => Number(state.raws[name] ?? raw) === raw;
@@ -104,7 +104,7 @@ function namedPoint(point, text = "", finding = "") {
   return { point: point.name, name: codecOf(point)?.name, finding, text: `: ${[text || englishTitle(point.title), finding].filter(Boolean).join("; ")}` };
 }
 
-/** Return a point with its raw number, and if it is written, why the device refuses that.
+/** Return a point with its raw number and, if it is written, why the device refuses it.
  * @param {any} point @param {any} codec @param {any} raw @param {UnitState} state @param {boolean} [written] @returns {Said} */
 function pointValue(point, codec, raw, state, written = false) {
   const value = meaningOf(point, codec, raw, state.raws);
@@ -139,7 +139,7 @@ function meaningOf(point, codec, raw, raws) {
   }
 }
 
-/** Whether a named number, printed as `3`, `3 (0003h)` or `1 (3F800000h)`, is a raw number. @param {string} printed @param {any} raw */
+/** Return true if a named number, printed as `3`, `3 (0003h)` or `1 (3F800000h)`, is a raw number. @param {string} printed @param {any} raw */
 function isNumber(printed, raw) {
   const pattern = /\(([0-9A-F]+)h\)$/.exec(printed)?.[1];
   return printed.replace(/ \(.*/, "") === String(raw) || (pattern !== undefined && BigInt(`0x${pattern}`) === BigInt(raw));
@@ -282,7 +282,7 @@ function partText(place, count) {
   return `${name} (${place + 1} of ${count}, the high part first)`;
 }
 
-/** Join what a point says alike for several variants; a doubt stays if no variant is without. @param {Said[]} said @returns {Said[]} */
+/** Merge items that are the same for several variants; a doubt stays only if all variants have it. @param {Said[]} said @returns {Said[]} */
 function withoutRepeats(said) {
   /** @type {Map<string, Said>} */
   const kept = new Map();
@@ -294,7 +294,7 @@ function withoutRepeats(said) {
   return [...kept.values()];
 }
 
-/** The label of what holds for all variants of a point. @param {Said} said */
+/** Return the label of an item that holds for all variants of a point. @param {Said} said */
 function codeAndName({ point = "", name = "" }) {
   const code = device.byName.get(point)?.code;
   return code ? `${code} ${name}` : name;

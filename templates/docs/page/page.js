@@ -1,4 +1,4 @@
-/* The page of a device: what the address after # names is shown; nothing is kept but the reader's choices. */
+/* The page of a device: it shows what the address after # names, and stores only the reader's choices. */
 
 const device = readDevice();
 /** @type {Record<string, any>} */
@@ -131,7 +131,7 @@ function accessLegend() {
 
 /* The list of points. */
 
-/** So many rows at a time are quick to lay out; more follow as soon as their end comes near the window. */
+/** The number of rows that are laid out at once; more follow when the reader scrolls near their end. */
 const CHUNK = 16;
 const ahead = new IntersectionObserver((seen) => { if (seen.some((each) => each.isIntersecting)) extendList(ui.listed + CHUNK); }, { rootMargin: "800px" });
 
@@ -193,7 +193,7 @@ function extendList(count) {
   }
   ui.listed = Math.min(count, ui.shown.length);
   ui.rows.append(...rows);
-  ahead.unobserve(ui.end); // watched anew, it tells again that it is near
+  ahead.unobserve(ui.end); // observed again, it reports again if it is still near
   if (ui.listed < ui.shown.length) ahead.observe(ui.end);
 }
 
@@ -235,7 +235,7 @@ function build() {
   document.body.prepend(element("a", { className: "skip", href: "#detail" }, "Skip to the content"), header, element("main", { className: "split" }, ui.list, ui.detail), element("footer", {}, element("p", {}, device.made), element("p", {}, "A write can move a machine. Hold what matters against the manual of your own device.")));
 }
 
-/** Keep what stands below the header in sight, however many lines that has. */
+/** Keep the content below the header in sight, however tall the header is. */
 function followHeader() {
   const header = /** @type {HTMLElement} */ (document.querySelector("header"));
   const measure = () => document.documentElement.style.setProperty("--top", `${header.offsetHeight}px`);
@@ -270,7 +270,7 @@ function filterFields() {
       remember("language", value);
       show();
     }, "all, English first");
-    setTimeout(() => nameLanguages([...field.querySelectorAll("option")])); // browsers take long to look up names
+    setTimeout(() => nameLanguages([...field.querySelectorAll("option")])); // browsers look up names slowly
     fields.push(field);
   }
   return fields;

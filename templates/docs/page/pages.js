@@ -50,7 +50,7 @@ function startSearch(header, rows) {
   header.after(hits);
 }
 
-/** Return the text around the first word that it has, which is marked. @param {string} text @param {string[]} words */
+/** Return the text around the first of these words in it, with that word marked. @param {string} text @param {string[]} words */
 function excerpt(text, words) {
   const small = text.toLowerCase();
   const word = words.find((each) => small.includes(each)) ?? "";

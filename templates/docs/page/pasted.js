@@ -1,7 +1,7 @@
 /* Frames as people paste them: bytes in any usual notation, one frame a line, and the lines of logs and of candump. */
 
-/** What a line holds: a frame as bytes, or of CAN with its identifier; `isReply` if the log says that it came from the device; `problem`
- * says why it holds none.
+/** A pasted line: the bytes of a frame, for CAN with its identifier; `isReply` if the log says that the device sent it; `problem`
+ * says why the line has no frame.
  * @typedef {{ text: string, time: number | null, data: Uint8Array, id?: number, isReply?: boolean, remote?: boolean, problem?: string }} Pasted */
 
 const LONGEST_LINE = 8192;
@@ -72,7 +72,7 @@ function countedText(count, what) {
   return `${count} ${what}${count === 1 ? "" : "s"}`;
 }
 
-/** Cut bytes into the sound frames that follow each other; whole if they hold one, or none.
+/** Split bytes into consecutive valid frames; return them whole if they hold at most one.
  * @param {Uint8Array} data @param {(rest: Uint8Array) => number} soundSize @param {number} least @returns {Uint8Array[]} */
 function cutApart(data, soundSize, least) {
   const pieces = [];

@@ -78,7 +78,7 @@ function errataOf(device, point) {
   return element("div", {}, ...point.errata.map((at) => erratumBox(device, device.errata[at])));
 }
 
-/** Return an erratum as a box: what is taken, and opened, what is printed, why, and where.
+/** Return an erratum as a box: what was taken; when it is opened, also what is printed, why, and where.
  * @param {PageDevice} device @param {Erratum} erratum @param {boolean} [withPoints] */
 function erratumBox(device, erratum, withPoints = false) {
   const open = erratum.open.map(([, text]) => `the manual leaves open ${text}`).join("; ");

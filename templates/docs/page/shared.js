@@ -17,12 +17,12 @@ function element(name, facts, ...children) {
   return made;
 }
 
-/** Return what is stored under a key, or the usual value where a browser stores nothing. @param {string} key @param {any} usual */
+/** Return what is stored under a key, or `usual` if the browser stores nothing. @param {string} key @param {any} usual */
 function recalled(key, usual) {
   try { return JSON.parse(localStorage.getItem(`fieldscribe ${key}`) ?? "null") ?? usual; } catch { return usual; }
 }
 
-/** Store a choice of the reader; without storage it ends with the page. @param {string} key @param {any} value */
+/** Store a choice of the reader; without storage it is lost when the page closes. @param {string} key @param {any} value */
 function remember(key, value) {
   try { localStorage.setItem(`fieldscribe ${key}`, JSON.stringify(value)); } catch { /* a browser may refuse to store */ }
 }

@@ -15,7 +15,7 @@ function snippetsOf(device, point) {
   return made;
 }
 
-/** Return true for a word of a telegram, or a signal of a message: nobody asks for it by itself. @param {Point} point */
+/** Return true for a word of a telegram or a signal of a message, which no request reads alone. @param {Point} point */
 function isCyclic(point) {
   return point.shared.telegram !== undefined;
 }
@@ -36,7 +36,7 @@ function countUnit(point) {
   return counts > 0 ? `in 10^-${counts} ${unit}`.trim() : unit && `in ${unit}`;
 }
 
-/** Return what makes the raw number of the words of a telegram in C. @param {Point} point @param {string} name @param {string} word */
+/** Return the C expression for the raw number in the words of a telegram. @param {Point} point @param {string} name @param {string} word */
 function rawInC(point, name, word) {
   if (point.shared.isGroup) return `${name}_extract(${word})`;
   return point.addresses.length > 1 || point.shared.type?.startsWith("s") ? `${name}_from_words(&${word})` : word;

@@ -2,9 +2,9 @@
 
 /** A title alone, or in the languages of the device, English first. */
 type Title = string | string[];
-/** Where a fact stands among all, its label, its text. */
+/** The position of a fact among all facts, its label, its text. */
 type FactRow = [number, string, string];
-/** Number, name, title, and a quantity; of a flag the number is a number. */
+/** Number, name, title, and a quantity. */
 type Entry = [any, string, Title?, string?];
 /** Lowest bit, width, name, title, the state in which it is true, what its numbers mean. */
 type Flag = [number, number, string, Title, number, Entry[]];

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 _PARTS = {"send": "a method that sends a frame", "receive": "one that returns the next frame, or raises TimeoutError"}
-"""What a transport has."""
+"""The methods that blocking and async transports share."""
 
 
 class CanTransport(Protocol):
@@ -36,10 +36,10 @@ class CanTransport(Protocol):
 
 @runtime_checkable
 class WaitingCanTransport(CanTransport, Protocol):
-    """A transport that tells what has come already; with python-can that is `bus.recv(0)`."""
+    """A transport that can return frames that have come already; with python-can that is `bus.recv(0)`."""
 
     def receive_waiting(self) -> Frame | None:
-        """The next frame that is there already; None at once when there is none."""
+        """Return the next frame that has come already; None at once if there is none."""
 
 
 class AsyncCanTransport(Protocol):
@@ -54,10 +54,10 @@ class AsyncCanTransport(Protocol):
 
 @runtime_checkable
 class AsyncWaitingCanTransport(AsyncCanTransport, Protocol):
-    """An asynchronous transport that tells what has come already."""
+    """An asynchronous transport that can return frames that have come already."""
 
     def receive_waiting(self) -> Frame | None:
-        """The next frame that is there already; None at once when there is none. It does not wait: it is not async."""
+        """Return the next frame that has come already; None if there is none. It never waits, so it is not async."""
 
 
 @runtime_checkable
@@ -65,7 +65,7 @@ class SharedCanTransport(CanTransport, Protocol):
     """A transport that several devices share, each with its own view of it."""
 
     def listener(self) -> CanTransport:
-        """A transport over the same bus which hears every frame, whatever the others receive."""
+        """Return a transport over the same bus that receives every frame, whatever the others receive."""
 
 
 @runtime_checkable
@@ -73,7 +73,7 @@ class AsyncSharedCanTransport(AsyncCanTransport, Protocol):
     """The same for async devices."""
 
     def listener(self) -> AsyncCanTransport:
-        """A transport over the same bus which hears every frame, whatever the others receive."""
+        """Return a transport over the same bus that receives every frame, whatever the others receive."""
 
 
 class CanDevice(CanSession, AnyDevice):
@@ -96,11 +96,11 @@ class CanDevice(CanSession, AnyDevice):
         return None
 
     def read_at(self, space: str, address: int, count: int = 1) -> tuple[int, ...]:
-        """Read parameters by address, or words of the telegram that `space` names, without any meaning."""
+        """Read parameters by address, or words of the telegram that `space` names, as raw words."""
         return self._run(self._read_at_steps(space, address, count))
 
     def write_at(self, space: str, address: int, *values: int) -> None:
-        """Write parameters by address. Nothing is checked: this can set what no point allows."""
+        """Write parameters by address. Nothing is checked: this can write numbers that no point allows."""
         self._run(self._write_at_steps(space, address, values))
 
 
@@ -128,9 +128,9 @@ class AsyncCanDevice(CanSession, AnyAsyncDevice):
         return None
 
     async def read_at(self, space: str, address: int, count: int = 1) -> tuple[int, ...]:
-        """Read parameters by address, or words of the telegram that `space` names, without any meaning."""
+        """Read parameters by address, or words of the telegram that `space` names, as raw words."""
         return await self._run(self._read_at_steps(space, address, count))
 
     async def write_at(self, space: str, address: int, *values: int) -> None:
-        """Write parameters by address. Nothing is checked: this can set what no point allows."""
+        """Write parameters by address. Nothing is checked: this can write numbers that no point allows."""
         await self._run(self._write_at_steps(space, address, values))

@@ -31,7 +31,7 @@ class Frame(Record):
 
 
 class Role(NamedTuple):
-    """What one byte of a message carries.
+    """The content of one byte of a message.
 
     `constant` (number: the byte itself), `unit`, `address`, `raw` (number: how far the byte lies above bit 0),
     `multiplexer`, `word` (number: 2 * word of the frame, and 1 more for its low byte), `xor` (number: a mask of the
@@ -65,12 +65,12 @@ class Message(Record):
         return self.can_id + unit if self.adds_unit else self.can_id
 
     def carries(self, kind: str) -> bool:
-        """Whether some byte has that role."""
+        """Return True if some byte has that role."""
         return any(role.kind == kind for role in self.roles)
 
 
 class Profile(Record):
-    """What a device says and hears: unit numbers, the bits of identifiers, messages and telegrams."""
+    """What a device sends and receives: unit numbers, the bits of identifiers, messages and telegrams."""
 
     units: tuple[int, int]
     identifier_bits: int
@@ -100,7 +100,7 @@ class Profile(Record):
         raise AccessError(f"the device has no message that {'writes' if writes else 'reads'} a parameter")
 
     def answer(self, request: Message) -> Message | None:
-        """What answers a request, where anything does."""
+        """Return the message that answers a request; None if nothing does."""
         return next((message for message in self.messages if message.answers == request.name), None)
 
 
@@ -151,7 +151,7 @@ def check(message: Message, unit: int, frame: Frame) -> None:
 
 
 def recognizer(message: Message, unit: int) -> Callable[[Frame], bool]:
-    """Whether `check` has nothing against a frame, by bytes that are known beforehand."""
+    """Return True if `check` accepts a frame, from the bytes that are known beforehand."""
     can_id, length = message.identifier(unit), message.length
     roles = list(enumerate(message.roles))
     known = tuple([(at, _expected(role, unit, b"")) for at, role in roles if role.kind in ("constant", "unit")])
@@ -170,18 +170,18 @@ def recognizer(message: Message, unit: int) -> Callable[[Frame], bool]:
 
 
 _FIXED = (("constant", "wrong_constant", "constant"), ("unit", "wrong_unit", "unit"), ("xor", "wrong_check", "check"))
-"""The kinds of bytes that are known beforehand, in the order in which they are looked at."""
+"""The kinds of bytes that are known beforehand, in the order in which they are checked."""
 
 
 def _expected(role: Role, unit: int, data: bytes) -> int:
-    """What a byte of a kind that is known beforehand has to be."""
+    """Return the value that a byte of such a kind must have."""
     if role.kind == "constant":
         return role.number
     return unit >> role.number & 0xFF if role.kind == "unit" else _combined(data, role.number)
 
 
 def parse(message: Message, unit: int, frame: Frame) -> tuple[int, int]:
-    """Address and raw number in a message, 0 for what it does not carry.
+    """Return the address and the raw number in a message; 0 for the one that it does not carry.
 
     Raises FrameError as `check` does.
     """

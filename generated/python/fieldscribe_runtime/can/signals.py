@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""Signals: numbers in some bits of a message, out of its bytes and into them, without any I/O."""
+"""Signals are numbers in some bits of a message: extracts and inserts them, without any I/O."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 class Signal(NamedTuple):
-    """Where a signal lies in a message. `start` is its first bit as CAN databases count: bit 7 of byte 1 is 15.
+    """The place of a signal in a message. `start` is its first bit as CAN databases count: bit 7 of byte 1 is 15.
 
     That is the bit of the lowest value if the low byte comes first, else the bit of the highest one. `when` has places
     of other signals of the message with the raw numbers that select this one: all must fit.
@@ -24,12 +24,12 @@ class Signal(NamedTuple):
 
     @property
     def words(self) -> int:
-        """How many words it takes in the telegram of the message, the high one first."""
+        """The number of words that it takes in the telegram of the message, the high one first."""
         return -(-self.width // 16)
 
 
 class Packing:
-    """Takes the signals of a message out of its bytes, and puts them in."""
+    """Extracts the signals of a message from its bytes, and inserts them."""
 
     def __init__(self, signals: tuple[Signal, ...], length: int) -> None:
         self.signals, self.length = signals, length

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""Reads of consecutive addresses that respect a device's limits and holes."""
+"""Plans reads of consecutive addresses within the limits of a device, around its gaps."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Block(Record):
 
     @property
     def area(self) -> str:
-        """The space, and what the address counts from."""
+        """The space, and the base from which the address counts."""
         return self.space if self.base is None else f"{self.space} from {self.base}"
 
     @property
@@ -38,7 +38,7 @@ class Block(Record):
         return [(area, address) for address in range(self.address, self.address + self.count)]
 
     def covers(self, place: Place) -> bool:
-        """Whether the block brings all of a place."""
+        """Return True if the block has all words of a place."""
         last = max(place.addresses)
         same = self.space == place.space and self.base == place.base
         return same and self.address <= place.address and last < self.address + self.count
@@ -52,7 +52,7 @@ def read_function(place: Place) -> int:
 
 
 def plan(places: Iterable[Place], profile: Profile, bridges: Collection[tuple[str, int]] = ()) -> tuple[Block, ...]:
-    """The fewest reads, from the lowest address on, that bring all places.
+    """Return the fewest reads, in ascending order of address, that cover all places.
 
     A read never splits a place, has no more items than the function allows (unless a text alone has more), and touches
     no address that was not asked for, except those in `bridges` (area and address of other points that are known to be

@@ -21,7 +21,7 @@ W_contra = TypeVar("W_contra", contravariant=True)
 
 
 def _place(point: Point, keep: bool) -> Place:
-    """Where a value is written, with the task that keeps it in EEPROM if it is to be kept."""
+    """Return the place to which a value is written, with the task that keeps it in EEPROM if it is to be kept."""
     at = point.facts.at
     return at.replaced(function=EEPROM.get((point.size, at.index is not None))) if keep else at
 

@@ -18,11 +18,11 @@ if TYPE_CHECKING:
 
 
 _PARTS = {"exchange": "a method that sends a telegram and returns the whole reply"}
-"""What a transport has."""
+"""The methods that blocking and async transports share."""
 
 
 def _check(transport: object) -> None:
-    """Raises RequestError for what carries no telegrams of USS; a transport need not say its `framing`."""
+    """Raises RequestError for a transport of another bus; a transport need not have `framing`."""
     check_transport(transport, **_PARTS)
     framing = getattr(transport, "framing", USS)
     if framing != USS:
@@ -36,7 +36,7 @@ class UssTransport(Protocol):
     def exchange(self, request: bytes) -> bytes:
         """Send a telegram and return the whole reply; raises TimeoutError when none comes in time.
 
-        Nobody answers a broadcast: for it return no bytes (or wait in vain and raise TimeoutError).
+        Nobody answers a broadcast: return no bytes for it, or raise TimeoutError after waiting.
         """
 
 
@@ -46,14 +46,14 @@ class AsyncUssTransport(Protocol):
     async def exchange(self, request: bytes) -> bytes:
         """Send a telegram and return the whole reply; raises TimeoutError when none comes in time.
 
-        Nobody answers a broadcast: for it return no bytes (or wait in vain and raise TimeoutError).
+        Nobody answers a broadcast: return no bytes for it, or raise TimeoutError after waiting.
         """
 
 
 class UssDevice(UssSession, AnyDevice):
     """A device on a USS line.
 
-    Its process data is 0 until it is written, and again after a telegram that changes it has failed: see `UssSession`.
+    Its process data is 0 until it is written, and 0 again after a telegram that changes it failed: see `UssSession`.
     """
 
     transport: UssTransport
@@ -69,23 +69,23 @@ class UssDevice(UssSession, AnyDevice):
         return self.transport.exchange(request)
 
     def read_at(self, space: str, address: int, index: int | None = None) -> tuple[int, ...]:
-        """Read a parameter by number, without any meaning: one word, or two with the high one first.
+        """Read the words of a parameter by number: one word, or two with the high one first.
 
-        With the name of a telegram for the space it is a word of process data, counted from 0.
+        If `space` is the name of a telegram, read words of its process data, counted from 0.
         """
         return self._run(self._read_at_steps(space, address, index))
 
     def write_at(self, space: str, address: int, *words: int, index: int | None = None) -> None:
-        """Write a parameter by number to RAM, or with the name of a telegram words of process data.
+        """Write a parameter by number to RAM, or words of process data if `space` is the name of a telegram.
 
-        Nothing is checked: this can set what no point allows.
+        Nothing is checked: this can write numbers that no point allows.
         """
         self._run(self._write_at_steps(space, address, words, index))
 
     def broadcast(self, mask: tuple[int, int, int, int], words: Sequence[int] | None = None) -> None:
         """Send process data to all units of the line, which nobody answers: `words`, or those written to this device.
 
-        The mask says what counts: the first word which words (bit 1 the first one), the second which bits of the first
+        The mask says what counts: its first word which words (bit 1 the first one), its second which bits of the first
         word. Afterwards the process data of this device falls back to 0, see `drop_process_data`: call that on the
         objects of all other units too, or their next telegram takes the broadcast back.
         """
@@ -95,7 +95,7 @@ class UssDevice(UssSession, AnyDevice):
 class AsyncUssDevice(UssSession, AnyAsyncDevice):
     """A device on a USS line, asynchronously.
 
-    Its process data is 0 until it is written, and again after a telegram that changes it has failed: see `UssSession`.
+    Its process data is 0 until it is written, and 0 again after a telegram that changes it failed: see `UssSession`.
     """
 
     transport: AsyncUssTransport
@@ -111,23 +111,23 @@ class AsyncUssDevice(UssSession, AnyAsyncDevice):
         return await awaited(self.transport, self.transport.exchange(request))
 
     async def read_at(self, space: str, address: int, index: int | None = None) -> tuple[int, ...]:
-        """Read a parameter by number, without any meaning: one word, or two with the high one first.
+        """Read the words of a parameter by number: one word, or two with the high one first.
 
-        With the name of a telegram for the space it is a word of process data, counted from 0.
+        If `space` is the name of a telegram, read words of its process data, counted from 0.
         """
         return await self._run(self._read_at_steps(space, address, index))
 
     async def write_at(self, space: str, address: int, *words: int, index: int | None = None) -> None:
-        """Write a parameter by number to RAM, or with the name of a telegram words of process data.
+        """Write a parameter by number to RAM, or words of process data if `space` is the name of a telegram.
 
-        Nothing is checked: this can set what no point allows.
+        Nothing is checked: this can write numbers that no point allows.
         """
         await self._run(self._write_at_steps(space, address, words, index))
 
     async def broadcast(self, mask: tuple[int, int, int, int], words: Sequence[int] | None = None) -> None:
         """Send process data to all units of the line, which nobody answers: `words`, or those written to this device.
 
-        The mask says what counts: the first word which words (bit 1 the first one), the second which bits of the first
+        The mask says what counts: its first word which words (bit 1 the first one), its second which bits of the first
         word. Afterwards the process data of this device falls back to 0, see `drop_process_data`: call that on the
         objects of all other units too, or their next telegram takes the broadcast back.
         """

@@ -149,7 +149,7 @@ macro_rules! read_methods {
         #[doc = concat!($about, ", as its raw number.")]
         ///
         /// # Errors
-        /// Whatever [`ClientError`] tells.
+        /// Any [`ClientError`].
         pub $($async)? fn $raw<P>(&mut self) -> Result<P::Raw, ClientError<T::Error>>
         where
             P: Readable + $reach,
@@ -164,7 +164,7 @@ macro_rules! read_methods {
         #[doc = concat!($about, ", as its value.")]
         ///
         /// # Errors
-        /// Whatever [`ClientError`] tells.
+        /// Any [`ClientError`].
         pub $($async)? fn $value<P>(&mut self) -> Result<P::Value, ClientError<T::Error>>
         where
             P: Readable<Factors: NeedsNothing> + $reach,
@@ -177,7 +177,7 @@ macro_rules! read_methods {
         #[doc = concat!("As `", stringify!($value), "`, by the raw numbers that the point's scale needs.")]
         ///
         /// # Errors
-        /// Whatever [`ClientError`] tells.
+        /// Any [`ClientError`].
         pub $($async)? fn $value_with<P>(
             &mut self,
             with: P::Factors,
@@ -195,7 +195,7 @@ macro_rules! read_methods {
         #[doc = concat!($about, ", as a count: its value in units of `10^-DECIMALS`, without floating point.")]
         ///
         /// # Errors
-        /// Whatever [`ClientError`] tells.
+        /// Any [`ClientError`].
         pub $($async)? fn $count<P>(&mut self) -> Result<P::Count, ClientError<T::Error>>
         where
             P: CountReadable<Factors: NeedsNothing> + $reach,
@@ -208,7 +208,7 @@ macro_rules! read_methods {
         #[doc = concat!("As `", stringify!($count), "`, by the raw numbers that the point's scale needs.")]
         ///
         /// # Errors
-        /// Whatever [`ClientError`] tells.
+        /// Any [`ClientError`].
         pub $($async)? fn $count_with<P>(
             &mut self,
             with: P::Factors,
@@ -312,7 +312,7 @@ macro_rules! data_methods {
         /// The value of a point as data; reads other points that its scale needs first.
         ///
         /// # Errors
-        /// Whatever [`ClientError`] tells.
+        /// Any [`ClientError`].
         pub $($async)? fn read_point<P>(
             &mut self,
             point: PointInfo<P>,
@@ -364,7 +364,7 @@ macro_rules! data_methods {
         /// Reads the points that identify the device, then its variants: `IDENTIFICATIONS` of its crate.
         ///
         /// # Errors
-        /// Whatever [`ClientError`] tells; another device is an error of the inner result: `identify(rows)??`.
+        /// Any [`ClientError`]; another device is an error of the inner result: `identify(rows)??`.
         pub $($async)? fn identify<P>(
             &mut self,
             rows: &[Identification<P>],

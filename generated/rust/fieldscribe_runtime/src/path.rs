@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: 0BSD
-//! The integer path of a scale: how a division by a constant is done, settled and proven when the crate is compiled.
+//! The integer path of a scale: how to divide by a constant, chosen and proven when the crate is compiled.
 
 use crate::arithmetic::{div_round_i128, div_round_i64};
 use crate::scale::Line;
 
-/// How a line is worked out; it holds for every number from the least to the greatest that is asked for.
+/// How to compute a line; exact for every number between the least and the greatest that can occur.
 #[derive(Clone, Copy, Debug)]
 enum Way {
-    /// Nothing is divided, and all has 32 bits.
+    /// No division, all in 32 bits.
     Whole32,
-    /// Nothing is divided.
+    /// No division.
     Whole64,
-    /// Divided by a power of two, in 32 bits.
+    /// A division by a power of two, in 32 bits.
     Shifted,
     /// A product of 32 bits, shifted.
     Short(Magic),
-    /// The same, where it is one short now and then.
+    /// The same with a correction, as some quotients are one too small.
     Corrected(Magic),
     /// As `Short`, without the sign of what is divided.
     Signed(Magic),
@@ -40,9 +40,9 @@ struct Magic {
 pub(crate) struct Path {
     way: Way,
     line: Line,
-    /// The least number that is asked for.
+    /// The least number that can occur.
     low: i128,
-    /// The result of that, and what is left over of it.
+    /// The quotient and the remainder of that number.
     base: i128,
     rest: i128,
 }
@@ -189,13 +189,14 @@ const fn way(line: Line, low: i128, high: i128) -> Way {
     }
 }
 
-/// Whether one floor rounds all: halves of negative numbers, which go down, do not come up.
+/// True if rounding down after adding a half is right for all numbers: no negative number ends in a half.
 #[inline]
 const fn is_one_floor(line: Line, least: i128) -> bool {
     line.multiply > 0 && (least >= 0 || line.divide % 2 == 1)
 }
 
-/// What makes every quotient of the numbers above `low` exact, in a product of so many bits.
+/// The factor and summand with which every quotient of the numbers above `low` is exact, in a product of this many
+/// bits.
 ///
 /// With `factor` and `plus` rounded up by `e` and `f` parts of the divisor, the quotient grows by `(n * e + f) /
 /// (divide << shift)`: no whole number is crossed while that is less than one part.
@@ -215,7 +216,8 @@ const fn exact(line: Line, low: i128, high: i128, bits: u32) -> Option<Magic> {
     None
 }
 
-/// What makes every quotient of the numbers above `low` exact or short by one, in a product of 32 bits.
+/// The factor and summand with which every quotient of the numbers above `low` is exact or one too small, in a product
+/// of 32 bits.
 ///
 /// With `factor` and `plus` rounded down, the quotient shrinks by the same: by one at most while that is one at most.
 #[inline]
@@ -234,7 +236,7 @@ const fn near(line: Line, low: i128, high: i128) -> Option<Magic> {
     None
 }
 
-/// What is left over of the quotient of the least number, with the half that rounds.
+/// The remainder of the least number, with the half that rounds.
 #[inline]
 const fn rest(line: Line, low: i128) -> i128 {
     (line.dividend(low) + line.divide / 2).rem_euclid(line.divide)

@@ -369,7 +369,7 @@ pub trait Encodable: Writable {
     /// The raw number of a value: nearest, halves away from zero, then checked.
     ///
     /// # Errors
-    /// What [`Writable::check_with`] says; [`Error::NotANumber`], [`Error::NoCase`], [`Error::ZeroFactor`];
+    /// Those of [`Writable::check_with`]; [`Error::NotANumber`], [`Error::NoCase`], [`Error::ZeroFactor`];
     /// [`Error::Special`] for a value that would be a special code.
     fn encode_with(value: Self::Value, with: Self::With) -> Result<Self::Raw, Error>;
 
@@ -407,7 +407,7 @@ pub trait CountReadable: Readable {
     /// The integer that holds a count.
     type Count: Send;
 
-    /// The count nearest to the value, halves away from zero.
+    /// The count nearest to the value, rounded half away from zero.
     fn decode_count_with(raw: Self::Raw, with: Self::Factors) -> Self::Output<Self::Count>;
 
     /// As [`CountReadable::decode_count_with`], for a point whose scale needs no other.

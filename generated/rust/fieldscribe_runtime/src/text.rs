@@ -28,10 +28,10 @@ impl<const N: usize> Text<N> {
         length: 0,
     };
 
-    /// The text of that string, whose characters up to `U+00FF` are bytes of Latin-1.
+    /// Returns the text of a string; characters up to `U+00FF` become bytes of Latin-1.
     ///
     /// # Errors
-    /// [`Error::BadText`] if it is longer than `N` characters or has one that is no such byte.
+    /// [`Error::BadText`] if it is longer than `N` characters or has a character beyond `U+00FF`.
     pub fn new(text: &str) -> Result<Self, Error> {
         let mut found = Self::EMPTY;
         let mut places = found.bytes.iter_mut();
@@ -42,7 +42,7 @@ impl<const N: usize> Text<N> {
         Ok(found.measured())
     }
 
-    /// The text of these bytes, which are characters whatever they are.
+    /// Returns the text of these bytes; every byte is a character.
     ///
     /// # Errors
     /// [`Error::BadText`] if there are more than `N`.
@@ -53,7 +53,7 @@ impl<const N: usize> Text<N> {
         Ok(found.measured())
     }
 
-    /// The text in words; what is more than `N` characters is not looked at.
+    /// Returns the text in words; characters beyond `N` are ignored.
     #[must_use]
     pub fn from_words(words: &[u16]) -> Self {
         Self::collected(words.iter().flat_map(|word| word.to_be_bytes()))
@@ -184,7 +184,7 @@ impl<const N: usize> Utf8<N> {
         Text::from_bytes(text.as_bytes()).map(Self)
     }
 
-    /// The text of that UTF-8, which is cut to `N` bytes; none for what is no UTF-8.
+    /// The text of that UTF-8, which is cut to `N` bytes; none if it is not valid UTF-8.
     pub(crate) fn collected(codes: impl Iterator<Item = u8>) -> Option<Self> {
         let text = Text::collected(codes);
         core::str::from_utf8(text.as_bytes())
@@ -231,7 +231,7 @@ impl<const N: usize> fmt::Debug for Utf8<N> {
     }
 }
 
-/// How the characters of a text stand in words, where that is not two a word, the first in the high byte.
+/// The layout of characters in words, if it is not two a word with the first in the high byte.
 #[derive(Clone, Copy, Debug)]
 pub struct Layout {
     characters: usize,
@@ -241,7 +241,8 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// The layout of so many characters: one or two a word, filled up with blanks or with zeros, which end the text.
+    /// Returns the layout of this many characters: one or two a word, padded with blanks, or with zeros, which end the
+    /// text.
     #[must_use]
     pub const fn new(characters: usize, per_word: usize, padding: u8, is_low_first: bool) -> Self {
         Self {

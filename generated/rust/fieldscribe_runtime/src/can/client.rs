@@ -397,7 +397,7 @@ macro_rules! client {
             /// The word at an address.
             ///
             /// # Errors
-            /// Whatever [`ClientError`] tells.
+            /// Any [`ClientError`].
             pub $($async)? fn read_word(&mut self, address: u16) -> Result<u16, ClientError<T::Error>> {
                 self.exchange(self.unit.profile.read, address, 0)$($wait)*
             }
@@ -405,7 +405,7 @@ macro_rules! client {
             /// Writes a word to an address.
             ///
             /// # Errors
-            /// Whatever [`ClientError`] tells.
+            /// Any [`ClientError`].
             pub $($async)? fn write_word(
                 &mut self,
                 address: u16,
@@ -453,7 +453,7 @@ macro_rules! client {
             /// Writes a value to a group of bits: reads the word, replaces the bits, writes the word back.
             ///
             /// # Errors
-            /// Whatever [`ClientError`] tells.
+            /// Any [`ClientError`].
             pub $($async)? fn update<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
                 P: Readable + EncodableAlone + BitGroup + Parameter,
@@ -497,7 +497,7 @@ macro_rules! client {
             /// Waits for a frame, and passes it to the listener.
             ///
             /// # Errors
-            /// Whatever [`ClientError`] tells.
+            /// Any [`ClientError`].
             pub $($async)? fn listen(&mut self) -> Result<(), ClientError<T::Error>> {
                 let frame = self.transport.receive()$($wait)*.map_err(lost)?;
                 self.unit.trace(Way::Came, &frame);

@@ -27,7 +27,7 @@ impl PointFacts {
         }
     }
 
-    /// The raw number from the point's words in reading order, and words that do not count.
+    /// The raw number from the point's words in reading order, followed by unused words.
     pub(crate) fn raw_of(&self, mut words: [u16; 4]) -> i128 {
         if let (Some(mask), [word, ..]) = (self.mask, &mut words) {
             let is_signed = self.raw.is_signed;
@@ -47,7 +47,7 @@ impl PointFacts {
         Ok((words, usize::from(self.words).min(words.len())))
     }
 
-    /// The point's words in reading order, and words that do not count.
+    /// The point's words in reading order, followed by unused words.
     pub(crate) fn words_of(&self, raw: i128, word: u16) -> Result<[u16; 4], Error> {
         let mut words = (self.raw.into_words)(raw).ok_or_else(|| self.refused(raw))?;
         if let (Some(mask), [first, ..]) = (self.mask, &mut words) {
@@ -70,7 +70,7 @@ impl PointFacts {
         matches!(self.form, Form::Floating)
     }
 
-    /// Nothing, for a point that is read.
+    /// Succeeds if the point can be read.
     ///
     /// # Errors
     /// [`Error::Access`].
@@ -91,7 +91,7 @@ impl PointFacts {
         self.writing.as_ref().ok_or(access)
     }
 
-    /// Nothing, for a point whose address is no place in a telegram.
+    /// Succeeds if the address of the point is not a place in a telegram.
     ///
     /// # Errors
     /// [`Error::WrongSpace`].

@@ -11,11 +11,11 @@ pub trait Dated: Point<Value: Dates<Self::Raw>> {
     const FORM: DateForm;
 }
 
-/// A date and time that words hold, and that makes such words.
+/// Converts words to a date and time, and back.
 pub trait Dates<W>: Copy {
-    /// The date and time of the words; none if they hold none.
+    /// The date and time in the words; none if they hold no valid one.
     fn decoded(words: W, form: &DateForm) -> Option<Self>;
-    /// The words of the date and time; none if the parts do not hold it.
+    /// The words of the date and time; none if the parts have no room for it.
     fn encoded(self, form: &DateForm) -> Option<W>;
 }
 
@@ -42,7 +42,7 @@ pub fn decode<P: Dated, V: Dates<P::Raw>>(raw: P::Raw, (): ()) -> Result<V, Erro
 /// The words of a date and time, checked.
 ///
 /// # Errors
-/// [`Error::BadDate`], and what [`Writable::check_with`] says.
+/// [`Error::BadDate`], and those of [`Writable::check_with`].
 #[inline]
 pub fn encode<P: Dated + Writable, V: Dates<P::Raw>>(
     value: V,

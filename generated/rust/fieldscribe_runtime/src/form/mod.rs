@@ -82,7 +82,7 @@ fn checked<P: Writable>(raw: P::Raw, with: P::With) -> Result<P::Raw, Error> {
     Ok(raw)
 }
 
-/// The nearest raw number, checked; what is refused is told in values, which `decode` makes of raw numbers.
+/// The nearest raw number, checked; an error gives limits as values, from `decode`.
 #[inline]
 fn nearest<P: Writable>(
     value: f64,
@@ -106,7 +106,7 @@ fn nearest<P: Writable>(
     }
 }
 
-/// What is said of a value, where these are the least and the greatest raw number.
+/// The error for a value between these limits of raw numbers.
 fn refused_value<P: Writable>(given: f64, raw: (i64, i64), decode: impl Fn(i128) -> f64) -> Error {
     let (one, other) = (decode(raw.0.into()), decode(raw.1.into()));
     let (low, high) = in_order(one, other, raw.0 <= raw.1);
@@ -122,7 +122,7 @@ fn refused_value<P: Writable>(given: f64, raw: (i64, i64), decode: impl Fn(i128)
     })
 }
 
-/// What is said of a raw number that a count became, told in counts, which `decode` makes of raw numbers.
+/// The error for a raw number that a count became, told in counts, which `decode` makes of raw numbers.
 fn in_counts(error: Error, given: i64, decode: impl Fn(i64) -> Option<i64>) -> Error {
     let Error::OutOfRange(Refused::Raw(raw)) = error else {
         return error;

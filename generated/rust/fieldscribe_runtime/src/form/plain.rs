@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: 0BSD
-//! Points that are their raw numbers, or what is made of these alone.
+//! Points whose values are their raw numbers, or follow from these alone.
 
 pub use crate::check::within as check;
 use crate::display::per_unit;
@@ -19,10 +19,10 @@ pub fn decode_count<P: Point<Raw: Into<C>>, C>(raw: P::Raw, (): ()) -> C {
     raw.into()
 }
 
-/// What people see of the raw number.
+/// The raw number as people see it.
 ///
 /// # Errors
-/// [`Error::Overflow`], which no raw number comes upon.
+/// [`Error::Overflow`], which never occurs.
 pub fn shown<P: Point>(raw: P::Raw, (): ()) -> Result<Shown, Error> {
     let count = raw.to_i128().checked_mul(per_unit::<P>().into());
     count
@@ -33,14 +33,14 @@ pub fn shown<P: Point>(raw: P::Raw, (): ()) -> Result<Shown, Error> {
 /// The raw number, checked.
 ///
 /// # Errors
-/// What [`Writable::check_with`] says.
+/// Those of [`Writable::check_with`].
 #[inline]
 pub fn encode<P: Writable, V: Into<P::Raw>>(value: V, with: P::With) -> Result<P::Raw, Error> {
     let given = value.into().to_i128();
     stored::<P>(given, with).map_err(|error| in_units::<P>(error, given))
 }
 
-/// What is said of a value that is its raw number, told in the point's unit if it has one.
+/// The error for a value that is its raw number, told in the point's unit if it has one.
 #[expect(
     clippy::cast_precision_loss,
     reason = "it is for people: of more than 53 bits the last ones are rounded"
@@ -65,7 +65,7 @@ fn in_units<P: Point>(error: Error, given: i128) -> Error {
 /// The raw number of a count, checked.
 ///
 /// # Errors
-/// What [`Writable::check_with`] says.
+/// Those of [`Writable::check_with`].
 #[inline]
 pub fn encode_count<P: Writable, C: Into<i128>>(count: C, with: P::With) -> Result<P::Raw, Error> {
     stored::<P>(count, with)

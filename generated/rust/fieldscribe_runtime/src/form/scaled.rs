@@ -14,7 +14,7 @@ use crate::{Error, FixedScale, Raw, Scale, Shown, Writable};
 
 const EXACT: u32 = 53;
 
-/// What is settled for a point and a type of its counts.
+/// The constants for a point and a type of its counts, computed at compile time.
 struct Settled<P, C>(PhantomData<(P, C)>);
 
 impl<P: FixedScale, C: Count> Settled<P, C> {
@@ -42,23 +42,23 @@ pub fn decode<P: FixedScale, V: From<f64>>(raw: P::Raw, (): ()) -> V {
     value::<P>(raw.to_i128()).into()
 }
 
-/// The count nearest to the value, halves away from zero.
+/// The count nearest to the value, rounded half away from zero.
 #[inline]
 pub fn decode_count<P: FixedScale, C: Count>(raw: P::Raw, (): ()) -> C {
     C::truncated(Settled::<P, C>::DECODE.run(raw.to_i64()))
 }
 
-/// What is settled for what people see of a point.
+/// The constants for the decimals that people see, computed at compile time.
 struct Told<P>(PhantomData<P>);
 
 impl<P: FixedScale> Told<P> {
     const LINE: Line = P::SCALE.decoding(display::per_unit::<P>() as i128);
 }
 
-/// What people see of the value, rounded from the exact one.
+/// The value as people see it, rounded from the exact one.
 ///
 /// # Errors
-/// [`Error::Overflow`], which no raw number of a point comes upon whose decimals were checked.
+/// [`Error::Overflow`], which never occurs for a point whose decimals were checked.
 pub fn shown<P: FixedScale>(raw: P::Raw, (): ()) -> Result<Shown, Error> {
     let line = Told::<P>::LINE;
     let product = raw.to_i128().checked_mul(line.multiply);
@@ -71,7 +71,7 @@ pub fn shown<P: FixedScale>(raw: P::Raw, (): ()) -> Result<Shown, Error> {
 /// The raw number nearest to a value, checked; each step is rounded to binary64.
 ///
 /// # Errors
-/// What [`Writable::check_with`] says; [`Error::NotANumber`].
+/// Those of [`Writable::check_with`]; [`Error::NotANumber`].
 #[inline]
 pub fn encode<P: FixedScale + Writable, V: Into<f64>>(
     value: V,
@@ -107,7 +107,7 @@ pub(crate) fn exact(line: Line, raw: i128) -> f64 {
 /// The raw number nearest to a count, halves away from zero, checked.
 ///
 /// # Errors
-/// What [`Writable::check_with`] says.
+/// Those of [`Writable::check_with`].
 #[inline]
 pub fn encode_count<P: FixedScale + Writable, C: Count>(
     count: C,
@@ -146,7 +146,7 @@ const fn is_within<C: Count>(number: i64, low: i128, high: i128) -> bool {
     }
 }
 
-/// What is said of a count that becomes no raw number within reach.
+/// The error for a count that becomes no raw number within reach.
 #[allow(
     clippy::cast_possible_truncation,
     reason = "counts have 64 bits at most"
@@ -168,7 +168,7 @@ fn outside<P: FixedScale, C: Count>(given: i64) -> Error {
     }))
 }
 
-/// What is settled for the values of a point.
+/// The constants for the values of a point, computed at compile time.
 struct Valued<P>(PhantomData<P>);
 
 impl<P: FixedScale> Valued<P> {

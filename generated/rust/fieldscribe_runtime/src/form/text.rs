@@ -5,7 +5,7 @@ use crate::form::checked;
 use crate::text::{is_ascii, is_latin_1};
 use crate::{Error, Point, Raw, Text, Writable};
 
-/// A text that words make, and that makes words.
+/// Converts words to a text, and back.
 pub trait Words<W>: Copy {
     /// The text of the words.
     fn from_raw(words: W) -> Self;
@@ -34,7 +34,7 @@ pub fn decode<P: Point, V: Words<P::Raw>>(raw: P::Raw, (): ()) -> V {
 /// The words of a text, checked.
 ///
 /// # Errors
-/// What [`Writable::check_with`] says.
+/// Those of [`Writable::check_with`].
 #[inline]
 pub fn encode<P: Writable, V: Words<P::Raw>>(value: V, with: P::With) -> Result<P::Raw, Error> {
     checked::<P>(value.into_raw(), with)

@@ -6,17 +6,17 @@ use crate::form::packed::Packed;
 use crate::text::Layout;
 use crate::{Error, Point, Utf8, Writable};
 
-/// A text of UTF-8, whose bytes are packed as characters, or of UTF-16, which has a unit of 16 bits in each word.
+/// A text in UTF-8, with its bytes packed like characters, or in UTF-16, with one unit of 16 bits in each word.
 pub trait Unicode: Packed<Value: Units<Self::Raw>> {
     /// How many bits a unit has: 8 or 16.
     const BITS: u32;
 }
 
-/// A text that units in words make, and that makes such words.
+/// Converts units in words to a text, and back.
 pub trait Units<W>: Copy {
-    /// The text of the words; none where they are no Unicode.
+    /// The text of the words; none if they are not valid Unicode.
     fn decoded(words: W, layout: Layout, bits: u32) -> Option<Self>;
-    /// The words of the text; none where it does not fit, or has a control character.
+    /// The words of the text; none if it does not fit or has a control character.
     fn encoded(self, layout: Layout, bits: u32) -> Option<W>;
 }
 
@@ -68,7 +68,7 @@ pub fn decode<P: Unicode, V: Units<P::Raw>>(raw: P::Raw, (): ()) -> Result<V, Er
 /// The words of a text, checked.
 ///
 /// # Errors
-/// [`Error::BadText`], and what [`Writable::check_with`] says.
+/// [`Error::BadText`], and those of [`Writable::check_with`].
 #[inline]
 pub fn encode<P: Unicode + Writable, V: Units<P::Raw>>(
     value: V,

@@ -19,14 +19,14 @@ pub fn decode<P: FixedScale, V: From<f64>>(raw: P::Raw, (): ()) -> Result<V, Err
     Ok(scaled::value::<P>(raw.to_i128()).into())
 }
 
-/// What is settled for the counts of a point.
+/// The constants for the counts of a point, computed at compile time.
 struct Settled<P>(PhantomData<P>);
 
 impl<P: FixedScale> Settled<P> {
     const LINE: Line = P::SCALE.decoding(per_unit(P::DECIMALS) as i128);
 }
 
-/// The count nearest to the value, halves away from zero.
+/// The count nearest to the value, rounded half away from zero.
 ///
 /// # Errors
 /// [`Error::Overflow`].

@@ -190,7 +190,7 @@ macro_rules! client {
             /// Finds a block and sets it as the base; [`None`] if the device has no such block.
             ///
             /// # Errors
-            /// Whatever [`ClientError`] tells; [`BuildError::BadAddress`] for blocks that do not end.
+            /// Any [`ClientError`]; [`BuildError::BadAddress`] for blocks that do not end.
             pub $($async)? fn find(&mut self, block: &FoundBlock) -> Result<Option<Base>, ClientError<T::Error>> {
                 let chain = block.chain;
                 let mut place = None;
@@ -230,7 +230,7 @@ macro_rules! client {
             /// Sends a request and returns its reply, or [`None`] for a broadcast.
             ///
             /// # Errors
-            /// Whatever [`ClientError`] tells.
+            /// Any [`ClientError`].
             pub $($async)? fn exchange(
                 &mut self,
                 mut request: Request<'_>,
@@ -264,7 +264,7 @@ macro_rules! client {
             /// The words or bits of a block, one of `blocks`: `reply.raw::<P>()` returns each of its points.
             ///
             /// # Errors
-            /// Whatever [`ClientError`] tells.
+            /// Any [`ClientError`].
             pub $($async)? fn read_block(&mut self, block: &Block<D>) -> Result<Reply<'_, D>, ClientError<T::Error>> {
                 let mut request = Request::block(self.unit.number, block);
                 let standing = self.memory.standing(self.unit.transaction);
@@ -366,7 +366,7 @@ macro_rules! client {
             /// Sends a command, one of `commands`.
             ///
             /// # Errors
-            /// Whatever [`ClientError`] tells.
+            /// Any [`ClientError`].
             pub $($async)? fn command(&mut self, command: &Command<D>) -> Result<(), ClientError<T::Error>> {
                 let request = Request::command(self.unit.number, command);
                 self.exchange(request)$($wait)*?;
@@ -376,7 +376,7 @@ macro_rules! client {
             /// Writes a value to a group of bits: reads the word, replaces the bits, writes the word back.
             ///
             /// # Errors
-            /// Whatever [`ClientError`] tells.
+            /// Any [`ClientError`].
             pub $($async)? fn update<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
                 P: Readable + EncodableAlone + BitGroup,

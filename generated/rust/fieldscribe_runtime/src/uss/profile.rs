@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: 0BSD
-//! What the telegrams need to know of a device, as constants of the generated code, and how a link is set.
+//! What telegrams need to know about a device, as constants of the generated code, and the settings of a link.
 
 use super::{Sent, VARIABLE};
 use crate::ReplyError;
 
-/// How a link is set: its words of the parameter part (0, 3, 4 or 127 for variable) and of process data.
+/// The settings of a link: the number of words of the parameter part (0, 3, 4, or 127 for a variable length) and of
+/// process data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Link {
     pub(super) pkw: u8,
@@ -13,7 +14,7 @@ pub struct Link {
 }
 
 impl Link {
-    /// A link with so many words of the parameter part and of process data.
+    /// Returns a link with these numbers of words of the parameter part and of process data.
     #[must_use]
     pub const fn new(pkw: u8, pzd: u8) -> Self {
         Self {
@@ -23,7 +24,8 @@ impl Link {
         }
     }
 
-    /// The same link to firmware that keeps single words in the first value word of a parameter part of four words.
+    /// Returns the same link for firmware that puts a single word into the first value word of a parameter part of four
+    /// words.
     #[must_use]
     pub const fn single_first(self) -> Self {
         Self {
@@ -32,7 +34,7 @@ impl Link {
         }
     }
 
-    /// How many words of the parameter part a master sends.
+    /// Returns the number of words of the parameter part that a master sends.
     pub(super) const fn sent(self) -> usize {
         match self.pkw {
             0 => 0,
@@ -41,12 +43,12 @@ impl Link {
         }
     }
 
-    /// Whether a single word stands in the second value word.
+    /// Returns true if a single word stands in the second value word.
     pub(super) const fn single_last(self) -> bool {
         self.pkw == 4 && !self.single_first
     }
 
-    /// Whether an answer may have a parameter part of so many words.
+    /// Returns true if an answer may have a parameter part of this many words.
     pub(super) fn takes(self, words: usize) -> bool {
         if self.pkw == VARIABLE {
             words >= 3
@@ -56,7 +58,7 @@ impl Link {
     }
 }
 
-/// A task that a device knows, with the responses that say it is done.
+/// A task that a device knows, with the responses that confirm it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Task {
     number: u8,
@@ -79,7 +81,7 @@ pub struct FixedBits {
 }
 
 impl FixedBits {
-    /// Those that a point has.
+    /// Returns the constant bits of a point.
     #[must_use]
     pub const fn of<P: Sent>() -> Self {
         let [_, _, high, low] = P::FIXED_BITS.to_be_bytes();
@@ -90,7 +92,7 @@ impl FixedBits {
     }
 }
 
-/// What the telegrams need to know of a device.
+/// What telegrams need to know about a device.
 #[derive(Clone, Copy, Debug)]
 pub struct Profile {
     tasks: &'static [Task],
@@ -125,13 +127,13 @@ impl Profile {
         }
     }
 
-    /// The same drive, whose error values have names.
+    /// Returns the same profile with names for error values.
     #[must_use]
     pub const fn naming(self, name: fn(u16) -> Option<&'static str>) -> Self {
         Self { name, ..self }
     }
 
-    /// The refusal that an error value is, with the name that the drive has for it.
+    /// Returns the refusal of an error value, with the drive's name for it.
     #[must_use]
     pub fn refusal(&self, error: u16) -> ReplyError {
         let name = (self.name)(error);
@@ -147,7 +149,7 @@ impl Profile {
         self.tasks.iter().any(fits)
     }
 
-    /// The bits of the first word of process data that are always 1: without them a drive does not take the word.
+    /// The bits of the first word of process data that are always 1: without them, a drive ignores the word.
     pub(super) fn valid_bits(&self) -> u16 {
         let first = self.fixed.iter().filter(|one| one.position == 0);
         first.fold(0, |bits, one| bits | one.bits)

@@ -29,7 +29,7 @@ impl Value {
     /// Fills in a point's words, which are one or two.
     ///
     /// # Errors
-    /// [`Error::WrongLength`] if they are not as many as the value has.
+    /// [`Error::WrongLength`] if the value has another number of words.
     pub(super) fn fill(self, words: &mut [u16]) -> Result<(), Error> {
         match (self, words) {
             (Self::Word(word), [only]) => *only = word,
@@ -53,8 +53,7 @@ impl Value {
     }
 }
 
-/// What is asked of which unit: a task for an element of a parameter. It is built into a telegram, and it parses the
-/// answer to that telegram.
+/// A request to a unit: a task for an element of a parameter. It builds a telegram, and parses the answer to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Request {
     pub(super) unit: u8,
@@ -65,7 +64,7 @@ pub struct Request {
 }
 
 impl Request {
-    /// A task without a value, as reading is.
+    /// Returns a task without a value, such as reading.
     #[must_use]
     pub const fn new(unit: u8, task: u8, parameter: u16, index: u16) -> Self {
         Self {
@@ -101,7 +100,7 @@ impl Request {
         Self::change::<P>(unit, split::<P>(raw).as_ref(), false)
     }
 
-    /// A request that changes a parameter's raw number in the EEPROM too, which stands so many writes only.
+    /// A request that changes a parameter's raw number in the EEPROM too, which survives a limited number of writes.
     #[must_use]
     pub fn store<P: Writable + Whole + Parameter>(unit: u8, raw: P::Raw) -> Self {
         Self::change::<P>(unit, split::<P>(raw).as_ref(), true)
@@ -144,16 +143,16 @@ impl Request {
             (Some(Value::Double(_)), false, true) => 13,
             (Some(Value::Double(_)), true, false) => 8,
             (Some(Value::Double(_)), true, true) => 11,
-            // No task carries so many words; this one is no task of any device.
+            // No task carries this many words; this number is a task of no device.
             _ => u8::MAX,
         };
         let value = value.unwrap_or(Value::Nothing);
         Self::new(unit, task, parameter, index.map_or(0, u16::from)).with(value)
     }
 
-    /// Whether an answer holds the value that the request writes to a parameter.
+    /// Returns true if an answer holds the value that the request writes to a parameter.
     ///
-    /// A drive may round a binary32 number: of one the nearest thousandth is enough.
+    /// A drive may round a binary32 number, which is compared to the nearest thousandth.
     #[must_use]
     pub fn is_confirmed<P: Parameter>(&self, reply: &Reply<'_>) -> bool {
         self.is_answered(reply.value(), P::FLOATING)
@@ -178,10 +177,10 @@ impl Request {
         }
     }
 
-    /// Writes the telegram with these words of process data into `buffer` and gives its length in bytes.
+    /// Writes the telegram with these words of process data into `buffer` and returns its length in bytes.
     ///
     /// # Errors
-    /// Whatever the device would not take, and a buffer that is too small.
+    /// Everything that the device would refuse, and a buffer that is too small.
     pub fn build(
         &self,
         profile: &Profile,
@@ -245,7 +244,7 @@ pub fn broadcast(
     telegram(address, &masks, words, buffer)
 }
 
-/// Whether a number is another to the nearest thousandth; nothing is near to what is no number.
+/// Returns true if two numbers are equal to the nearest thousandth; false if one of them is NaN.
 fn is_near(number: f32, other: f32) -> bool {
     let (number, other) = (f64::from(number), f64::from(other));
     let size = if number < 0.0 { -number } else { number };

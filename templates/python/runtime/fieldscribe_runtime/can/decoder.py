@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""The frames of a telegram to values, one by one as they come."""
+"""Decodes the frames of a telegram to values, one by one as they arrive."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def layouts_of(profile: Profile, telegram: str, points: Sequence[Point], *, whol
 
 
 class Decoder(Receiver):
-    """Tells what the frames of a telegram mean that one unit sends: `Decoder(WoodwardMpu2s, "visualisation", unit=1)`.
+    """Decodes the frames of a telegram that one unit sends: `Decoder(WoodwardMpu2s, "visualisation", unit=1)`.
 
     It remembers of earlier frames what the scales of points need, and the words of numbers that two frames carry.
     `errors` says, by the names of points, whose numbers in the last frame have no value, and why: what a scale needs
@@ -58,12 +58,12 @@ class Decoder(Receiver):
         points = [one for one in device.POINTS.values() if one.facts.at.telegram == telegram and exists(one, variants)]
         self._layouts = layouts_of(device.PROFILE, telegram, points, whole=self._in_order)
         self._lacks = [bool(layout.needs) for layout in self._layouts]
-        """Whether something that its scales need has not come yet, for each frame."""
+        """For each frame, True if something that its scales need has not come yet."""
         apart = [one for one in points if not any(one in layout.points for layout in self._layouts)]
         self._apart = [self._parts(number, apart) for number in range(len(self._layouts))]
 
     def _parts(self, number: int, apart: Sequence[Point]) -> list[Decoding[Value]]:
-        """The points in several frames of which this one can be the last to come: the high word of a counter."""
+        """Return the points in several frames that this frame can complete, as with the high word of a counter."""
         words = self._layouts[number].words
         ends = [(one, one.facts.at.addresses) for one in apart if isinstance(one, Decoding)]
         return [one for one, at in ends if (at[0] if len(at) == 2 else max(at)) in words]
@@ -117,7 +117,7 @@ class Decoder(Receiver):
                     values[point.facts.name] = point.decode(raw, known)
 
     def _with(self, raws: Raws) -> Raws:
-        """What earlier frames brought, beside what the caller brings; raises WrongTypeError."""
+        """Return the raw numbers of earlier frames with those of the caller; raises WrongTypeError."""
         if not isinstance(raws, Mapping):
             raise WrongTypeError(f"raws are raw numbers by name, as {{'name': 1}}, not {shown(raws)}")
         return {**raws, **self._known}

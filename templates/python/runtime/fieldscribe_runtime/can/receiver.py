@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""A multiplexed telegram as its frames come in, and which of its words belong together."""
+"""Collects a multiplexed telegram from its frames, and knows which of its words belong together."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class _Slot:
 
 
 class Receiver:
-    """Takes the frames of a telegram from one unit, and gives its words once they came.
+    """Takes the frames of a telegram from one unit, and returns its words once they have come.
 
     Raises RequestError `bad_unit` for one that the device cannot have.
     """
@@ -48,19 +48,19 @@ class Receiver:
         self._pairs, self._together = pairs_of(self._message), parts_of(self._message, layout.words)
         self._slots = [_Slot() for _ in self._together]
         self._part_of = [(part, at) for part, words in enumerate(self._together) for at in range(len(words))]
-        """In which part each word of the telegram comes, and at which place in it."""
+        """The part in which each word of the telegram comes, and its place there."""
         self._is_own = recognizer(self._message, unit)
         kinds = [role.kind for role in self._message.roles]
         self._multiplexer = kinds.index("multiplexer") if "multiplexer" in kinds else None
 
     def take(self, frame: Frame, moment: float = 0.0) -> bool:
-        """Whether the frame belongs to the telegram; if so its words are kept, with the `moment` when it came."""
+        """Return True if the frame belongs to the telegram; its words are then kept, with the `moment` when it came."""
         if self._packing is None:
             return self._taken(frame, moment) is not None
         return bool(self._signals_taken(self._packing, frame, moment))
 
     def _taken(self, frame: Frame, moment: float) -> int | None:
-        """Which of the telegram's frames it is, from 0; None if it is another one."""
+        """Return the number of the frame within the telegram, from 0; None if it is another one."""
         try:
             if not self._is_own(frame):
                 return None
@@ -96,18 +96,18 @@ class Receiver:
         return self.words((position,))[0]
 
     def newer(self, positions: Iterable[int], moment: float) -> bool:
-        """Whether all frames with these words came at `moment` or later."""
+        """Return True if all frames with these words came at `moment` or later."""
         slots = [self._slot(position) for position in positions]
         return all(slot.number and slot.moment >= moment for slot in slots)
 
     def is_sent(self, moment: float) -> bool:
-        """Whether any frame of the telegram came at `moment` or later."""
+        """Return True if any frame of the telegram came at `moment` or later."""
         return any(slot.number and slot.moment >= moment for slot in self._slots)
 
     def words(self, positions: Sequence[int]) -> tuple[int, ...]:
         """The words at these positions, the high one first; raises TelegramError, `missing` or `torn`.
 
-        Two words of two frames are believed only when the same high word came before and after the low one: a counter
+        Two words of two frames are accepted only if the same high word came before and after the low one: a counter
         may have moved on in between. Longer runs of words, such as texts, are given as they came last.
         """
         if not isinstance(positions, (tuple, list, range)) or not positions:
@@ -146,7 +146,7 @@ def _no_frame(frame: object) -> RequestError:
 
 
 def pairs_of(message: Message) -> list[tuple[int, int]]:
-    """Where the high and the low byte of each word of a frame are."""
+    """Return the places of the high and the low byte of each word of a frame."""
     if message.signals:
         return [(2 * word, 2 * word + 1) for word in range(sum(one.words for one in message.signals))]
     places = {role.number: place for place, role in enumerate(message.roles) if role.kind == "word"}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""How a CAN device's parameters are read and written, and its telegrams heard: frames in and out, no I/O."""
+"""Reads and writes parameters of a CAN device and receives its telegrams, as steps of frames, without I/O."""
 
 from __future__ import annotations
 
@@ -30,27 +30,27 @@ if TYPE_CHECKING:
 
 
 class Wanted(enum.Enum):
-    """What a step asks of a transport beside sending a frame."""
+    """What a step wants of a transport besides sending a frame."""
 
     NEXT = enum.auto()
     """The next frame that comes."""
     WAITING = enum.auto()
-    """The next frame that is there already, or None, also where the transport cannot tell."""
+    """The next frame that has come already; None if there is none, or if the transport cannot say."""
 
 
 T = TypeVar("T")
 Steps = Generator[Frame | Wanted, Frame | None, T]
-"""Each step yields a frame to send (and is sent None), or what frame it wants to be sent."""
+"""Each step yields a frame to send (and receives None), or which frame it wants to receive."""
 
 _SETTLED = 0.2
-"""After so many seconds what is received was not on the queue before."""
+"""After this many seconds, a received frame was not in the queue before."""
 
 
 class CanSession(Session):
     """The state of one device on a CAN bus.
 
-    While other frames keep coming, what is waited for may take `patience` seconds. Words of a telegram that came up to
-    `fresh_for` seconds ago need not come again to be read.
+    While other frames keep coming, a step waits for its own frame for at most `patience` seconds. Words of a telegram
+    that came at most `fresh_for` seconds ago are read without waiting for new ones.
     """
 
     PROFILE: ClassVar[Profile]
@@ -63,11 +63,11 @@ class CanSession(Session):
         self._receivers = {one.name: Receiver(self.PROFILE, one.name, unit) for one in self.PROFILE.telegrams}
         self._since: float | None = None
         self._until: float | None = None
-        """When the wait for words that nobody sends was over, of several points that are read."""
+        """The moment when the wait for words that nobody sends was over, while several points are read."""
         self._unanswered = False
 
     def take(self, frame: Frame) -> bool:
-        """Feed a frame that came by another way; whether it is of a telegram of this device."""
+        """Feed a frame that came by another way; return True if it belongs to a telegram of this device."""
         moment = monotonic()
         taken = [receiver.take(frame, moment) for receiver in self._receivers.values()]
         return any(taken)
@@ -106,7 +106,7 @@ class CanSession(Session):
     def _part_steps(
         self, points: Sequence[Point], refusals: Refusals, ask: Callable[..., Steps[dict[str, int]]], *arguments: Any
     ) -> Steps[dict[str, int]]:
-        """Read some points; where `refusals` are noted, words that do not come in a telegram that comes are, too."""
+        """Read some points; with `refusals`, words that a telegram did not bring are noted there, too."""
         try:
             return (yield from super()._part_steps(points, refusals, ask, *arguments))
         except NoReplyError as error:
@@ -131,14 +131,14 @@ class CanSession(Session):
                 raise EchoError(text, (word,), (raw,))
 
     def _ask_steps(self, request: Message, answer: Message | None, address: int, raw: int) -> Steps[int]:
-        """One request, and the raw number of its answer; all other frames are offered to the receivers."""
+        """Send a request and return the raw number of its answer; the receivers get all other frames."""
         frame = build(request, self.PROFILE, self.unit, address, raw)
         yield from self._clear_steps()
         sent = self.traffic.sent(frame)
         yield frame
         if answer is None:
             return raw
-        self._unanswered = True  # until the answer came, whatever ends the wait
+        self._unanswered = True  # unknown until the answer has come, whatever ends the wait
         deadline = monotonic() + self.patience
         spoiled: FrameError | None = None
         while True:
@@ -155,7 +155,7 @@ class CanSession(Session):
             self.take(frame)
 
     def _clear_steps(self) -> Steps[None]:
-        """Take what came before a request off the queue, so that no late answer passes for the one to come."""
+        """Empty the queue before a request, so that no late answer is taken for the next one."""
         deadline = monotonic() + self.patience
         while (frame := (yield Wanted.WAITING)) is not None and monotonic() < deadline:
             self.take(frame)
@@ -188,13 +188,13 @@ class CanSession(Session):
             self.take((yield from self._next_steps(deadline, awaited, trouble)))
 
     def _read_at_steps(self, space: str, address: int, count: int) -> Steps[tuple[int, ...]]:
-        """Read by address; raises RequestError for what is no place."""
+        """Read by address; raises RequestError for a space or address that does not exist."""
         place = self._place(space, address, count)
         with about_place(self.traffic, place):
             return (yield from self._get_steps(place))
 
     def _write_at_steps(self, space: str, address: int, values: tuple[int, ...]) -> Steps[None]:
-        """Write by address; raises RequestError for what is no place, or no words."""
+        """Write by address; raises RequestError for a space or address that does not exist, or for wrong words."""
         check_values(values)
         place = self._place(space, address, len(values))
         check_words("bad_value", "values", values)
@@ -210,7 +210,7 @@ class CanSession(Session):
         return Place(space, addresses)
 
     def _next_steps(self, deadline: float, awaited: str, trouble: Exception | None) -> Steps[Frame]:
-        """The next frame, whatever it is; raises NoReplyError when none comes, or the wait has been too long."""
+        """Return the next frame of any kind; raises NoReplyError if none comes or the wait was too long."""
         reason = f"unit {self.unit} did not send {awaited}" + (f" ({trouble})" if trouble else "")
         if monotonic() > deadline:
             raise NoReplyError(f"{reason} within {self.patience:g} s") from trouble

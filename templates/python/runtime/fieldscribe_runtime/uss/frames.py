@@ -17,12 +17,12 @@ if TYPE_CHECKING:
 
 START = 0x02
 VARIABLE = 127
-"""The setting of the parameter part that lets its length follow from the request."""
+"""The setting for a parameter part whose length follows from the request."""
 NO_TASK, READ = 0, 1
 USS = "uss"
-"""What transports call this framing."""
+"""The name of this framing in transports."""
 RAM = {(1, False): 2, (2, False): 3, (1, True): 7, (2, True): 8}
-"""The tasks that change a value in RAM, by its words and whether it is an element of an array."""
+"""The tasks that change a value in RAM, by its number of words and whether it is an element of an array."""
 EEPROM = {(1, False): 14, (2, False): 13, (1, True): 12, (2, True): 11}
 """The tasks that change a value and keep it in EEPROM."""
 
@@ -35,7 +35,7 @@ _PAGE_BITS = (15, 12, 13, 14)
 
 
 class Link(Record):
-    """How the link is set: `pkw` words of the parameter part (127: variable), `pzd` words of process data.
+    """The settings of a link: `pkw` words of the parameter part (127: variable), `pzd` words of process data.
 
     `single_first`: the firmware that keeps single words in the first value word although the part has 4 words.
     """
@@ -46,12 +46,12 @@ class Link(Record):
 
     @property
     def sent(self) -> int:
-        """How many words of the parameter part are sent."""
+        """The number of words of the parameter part that are sent."""
         return 4 if self.pkw == VARIABLE else self.pkw
 
     @property
     def single_last(self) -> bool:
-        """Whether a single value stands in the second value word."""
+        """True if a single value stands in the second value word."""
         return self.pkw == 4 and not self.single_first
 
 
@@ -73,7 +73,7 @@ class Profile(Record):
 
 
 class Request(Record):
-    """What is asked: a task for a parameter (or an element of one) with a value of `width` words, and process data."""
+    """A request: a task for a parameter (or an element of one) with a value of `width` words, and process data."""
 
     unit: int
     task: int = NO_TASK
@@ -85,7 +85,7 @@ class Request(Record):
 
 
 class Reply(Record):
-    """A good answer: its response id, a value of `width` words (0 without a task), and process data."""
+    """An accepted answer: its response id, a value of `width` words (0 without a task), and process data."""
 
     response: int = 0
     width: int = 0
@@ -199,15 +199,15 @@ def reply_size(received: bytes) -> int | None:
 
 
 FRAMING = Framing(reply_size, lambda telegram: telegram[2] if len(telegram) > 2 else -1, shortest=4, longest=257)
-"""What a receiver must know of telegrams."""
+"""Return what a receiver needs to know about telegrams."""
 
 
 def parse(request: Request, reply: bytes, profile: Profile, link: Link) -> Reply:
-    """What a reply to `request` brings.
+    """Return the content of a reply to `request`.
 
     Raises FrameError, the first failure deciding: wrong_start, wrong_length, wrong_check, wrong_unit, no_answer,
     wrong_parameter, refused (RefusedError, with the device's number), no_rights, wrong_response. From no_answer on the
-    error holds the process data, which came all the same.
+    error holds the process data, which came nevertheless.
     """
     check_bytes(reply)
     words = _opened(request, reply, link)
@@ -230,7 +230,7 @@ def parse(request: Request, reply: bytes, profile: Profile, link: Link) -> Reply
 
 
 def _opened(request: Request, reply: bytes, link: Link) -> tuple[int, ...]:
-    """The words of a reply whose bytes are a good telegram of the right unit and length."""
+    """Return the words of a reply whose bytes are a valid telegram of the right unit and length."""
     if not reply or reply[0] != START:
         raise FrameError("wrong_start", "the reply does not begin with 02h")
     size = len(reply)
@@ -251,7 +251,7 @@ def _opened(request: Request, reply: bytes, link: Link) -> tuple[int, ...]:
 
 
 def _check_answer(request: Request, part: tuple[int, ...], profile: Profile) -> None:
-    """Raises FrameError if a parameter part is no good answer to the task."""
+    """Raises FrameError if a parameter part does not answer the task."""
     response = part[0] >> 12
     if response == _NO_ANSWER:
         raise FrameError("no_answer", "the device has not answered the task yet")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""How a USS device's parameters and process data are read and written: telegrams as bytes, no I/O."""
+"""Reads and writes parameters and process data of a USS device, as steps of telegrams, without I/O."""
 
 from __future__ import annotations
 
@@ -46,9 +46,9 @@ Steps = Generator[bytes, bytes, T]
 
 
 class UssSession(Session):
-    """The state of one USS device: how its link is set, and the process data that its next telegrams carry.
+    """The state of one USS device: the settings of its link, and the process data that its next telegrams carry.
 
-    Each telegram carries process data, those that read a parameter too. A word is 0 until it is written, all bits of
+    Each telegram carries process data, even one that reads a parameter. A word is 0 until it is written, all bits of
     it; the bits that are always written as a constant come with the first point of their word, so that reading, or
     writing a setpoint alone, commands nothing.
 
@@ -71,7 +71,7 @@ class UssSession(Session):
         self._sent: dict[int, int] = {}
 
     def drop_process_data(self) -> None:
-        """Let all words of process data be 0 until they are written again, because others have commanded the device."""
+        """Set all words of process data to 0 until they are written again, as others have commanded the device."""
         self._sent = {}
 
     @classmethod
@@ -138,8 +138,8 @@ class UssSession(Session):
         self._chosen(self._words({}), place)  # raises if the link does not carry them
         sent = {**self._sent, **dict(zip(sorted(place.addresses), values, strict=True))}
         request = Request(self.unit, words=self._words(sent))
-        check_request(request, self.PROFILE, self.link)  # what raises here was not sent: the old words still hold
-        self._sent = {}  # until the device has answered, whatever ends the wait
+        check_request(request, self.PROFILE, self.link)  # an error here means that nothing is sent
+        self._sent = {}  # unknown until the device has answered, whatever ends the wait
         yield from self._retried_steps(0, self._telegram_steps, request, sent)
         self._sent = sent
 
@@ -174,7 +174,7 @@ class UssSession(Session):
         yield from self._retried_steps(0, self._to_all_steps, request)
 
     def _exchange_steps(self, request: Request, sent: Mapping[int, int]) -> Steps[Reply]:
-        """One task as `_telegram_steps` carries it out, again while it is lost: it changes no process data."""
+        """Carry out one task, again if it is lost, as it changes no process data."""
         return (yield from self._retried_steps(self.retries, self._telegram_steps, request, sent))
 
     def _telegram_steps(self, request: Request, sent: Mapping[int, int]) -> Steps[Reply]:
@@ -206,13 +206,13 @@ class UssSession(Session):
         return place.address
 
     def _read_at_steps(self, space: str, address: int, index: int | None) -> Steps[tuple[int, ...]]:
-        """Read by number; raises RequestError for what is no place."""
+        """Read by number; raises RequestError for a space or number that does not exist."""
         place = self._place(space, address, 1, index)
         with about_place(self.traffic, place):
             return (yield from self._get_steps(place))
 
     def _write_at_steps(self, space: str, address: int, words: tuple[int, ...], index: int | None) -> Steps[None]:
-        """Write by number; raises RequestError for what is no place, or no words."""
+        """Write by number; raises RequestError for a space or number that does not exist, or for wrong words."""
         check_values(words)
         place = self._place(space, address, len(words), index)
         check_words("bad_value", "values", words)
@@ -229,11 +229,11 @@ class UssSession(Session):
         return Place(space, (address,), index=index)
 
     def _is_sent(self, place: Place) -> bool:
-        """Whether words of a telegram go to the device."""
+        """Return True if words of a telegram go to the device."""
         return any(one.name == place.telegram and one.direction == "request" for one in self.PROFILE.telegrams)
 
     def _carried(self, point: Point) -> bool:
-        """Whether the link has room for the words of a point."""
+        """Return True if the link has room for the words of a point."""
         if point.facts.at.telegram is not None:
             return max(point.facts.at.addresses) < self.link.pzd
         return self.link.sent >= (4 if point.size > 1 else 3)

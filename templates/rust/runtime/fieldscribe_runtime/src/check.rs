@@ -72,7 +72,7 @@ pub fn with_fixed_bits<P: Point>(raw: P::Raw) -> P::Raw {
     P::Raw::from_words(words)
 }
 
-/// What is said of a raw number without the bits that are always the same.
+/// The error for a raw number without its constant bits.
 #[cold]
 fn fixed_bits<P: Point>(given: i64) -> Error {
     let (point, mask, bits) = (P::NAME, P::FIXED_MASK, P::FIXED_BITS);
@@ -84,7 +84,7 @@ fn fixed_bits<P: Point>(given: i64) -> Error {
     })
 }
 
-/// What is said of a raw number between others than these.
+/// The error for a raw number between others than these.
 #[must_use]
 pub(crate) fn outside<P: Point>(raw: P::Raw, low: i64, high: i64) -> Error {
     let point = P::NAME;
@@ -97,7 +97,7 @@ pub(crate) fn outside<P: Point>(raw: P::Raw, low: i64, high: i64) -> Error {
     }))
 }
 
-/// What is said of a number that has no name.
+/// The error for a number that has no name.
 #[must_use]
 pub(crate) fn unknown<P: Point>(given: i64) -> Error {
     let (point, low, high) = (P::NAME, P::RAW_MIN.to_i64(), P::RAW_MAX.to_i64());
@@ -109,7 +109,7 @@ pub(crate) fn unknown<P: Point>(given: i64) -> Error {
     })
 }
 
-/// What is said of a number that the raw type does not hold.
+/// The error for a number that the raw type does not hold.
 #[must_use]
 pub(crate) fn beyond<P: Writable>(number: i128) -> Error {
     if P::IS_CLOSED {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: 0BSD
-//! Dates and times whose parts are numbers of their own in some bits of the words of a point.
+//! Dates and times in parts: each part is a number in some bits of the words of a point.
 
 use core::fmt;
 
 /// A date, a time, or both, as a device keeps it: without a zone.
 ///
-/// What a point has no part for is 0 when it is read, and not looked at when it is written.
+/// A field for which a point has no part is 0 when the point is read, and ignored when it is written.
 ///
 /// ```
 /// use fieldscribe_runtime::DateTime;
@@ -32,7 +32,7 @@ pub struct DateTime {
 }
 
 impl DateTime {
-    /// Whether there is such a date.
+    /// True if the date exists.
     #[must_use]
     pub const fn is_date(self) -> bool {
         let days = match (self.month, self.is_leap()) {
@@ -44,7 +44,7 @@ impl DateTime {
         matches!(self.year, 1..=9999) && is_day
     }
 
-    /// Whether there is such a time.
+    /// True if the time exists.
     #[must_use]
     pub const fn is_time(self) -> bool {
         self.hour < 24 && self.minute < 60 && self.second < 60 && self.millisecond < 1000
@@ -97,7 +97,7 @@ impl fmt::Display for DateTime {
     }
 }
 
-/// What a part is.
+/// The kind of a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DateField {
     /// The year.
@@ -106,7 +106,7 @@ pub enum DateField {
     Month,
     /// The day of the month.
     Day,
-    /// The weekday, which is not looked at when it is read.
+    /// The weekday; ignored when it is read.
     Weekday,
     /// The hour.
     Hour,
@@ -118,8 +118,8 @@ pub enum DateField {
     Millisecond,
 }
 
-/// A part: what it is, the word that has it, its lowest bit there, a mask of its number, and the year that a 0 means,
-/// or the number of Sunday.
+/// A part: its kind, its word, its lowest bit there, a mask of its number, and the year of the number 0, or the number
+/// of Sunday.
 #[derive(Clone, Copy, Debug)]
 pub struct DatePart(pub DateField, pub usize, pub u32, pub u16, pub u16);
 
@@ -132,7 +132,8 @@ pub struct DateForm {
 }
 
 impl DateForm {
-    /// Those parts: decimal digits of four bits if `is_bcd`; the bytes of each word are swapped if `low_first`.
+    /// Returns these parts: in decimal digits of four bits each if `is_bcd`, with the bytes of each word swapped if
+    /// `low_first`.
     #[must_use]
     pub const fn new(is_bcd: bool, low_first: bool, parts: &'static [DatePart]) -> Self {
         Self {
@@ -142,7 +143,7 @@ impl DateForm {
         }
     }
 
-    /// The date and time that words hold; none if they hold none.
+    /// The date and time in the words; none if they hold no valid one.
     #[must_use]
     pub fn decoded(&self, words: &[u16]) -> Option<DateTime> {
         let mut found = DateTime::default();
@@ -172,7 +173,7 @@ impl DateForm {
         self.is_real(found).then_some(found)
     }
 
-    /// Fills in the words of a date and time; none if it is none, or a part has no room for it.
+    /// Fills in the words of a date and time; none if it does not exist or a part has no room for its number.
     #[must_use]
     pub fn encoded(&self, value: DateTime, words: &mut [u16]) -> Option<()> {
         let value = self.written(value);
@@ -207,7 +208,7 @@ impl DateForm {
         self.parts.iter().any(|part| part.0 == field)
     }
 
-    /// The time without what has no part; a second may be in the milliseconds.
+    /// The time without the fields that have no part; the second may be counted in the milliseconds.
     fn written(&self, mut value: DateTime) -> DateTime {
         if !self.has(DateField::Minute) {
             value.minute = 0;

@@ -62,7 +62,7 @@ pub(crate) fn holds<D>(rows: &[Identification<D>], words: &HeldWords) -> Result<
 /// Whether the words of a point are a text.
 ///
 /// # Errors
-/// What decoding says; [`Error::WrongLength`] of a text that is too long.
+/// Those of decoding; [`Error::WrongLength`] of a text that is too long.
 #[doc(hidden)]
 pub fn is_text<P>(held: &HeldWords, text: &str) -> Result<bool, Error>
 where

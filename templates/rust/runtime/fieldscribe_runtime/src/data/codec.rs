@@ -35,10 +35,10 @@ impl PointFacts {
         }
     }
 
-    /// What a raw number means, by the raw numbers of [`needs`](crate::PointInfo::needs).
+    /// Decodes a raw number, with the raw numbers of [`needs`](crate::PointInfo::needs).
     ///
     /// # Errors
-    /// What the rule of a scale says that needs other points; [`Error::NotANumber`] for a text.
+    /// Those of a scale that needs other points; [`Error::NotANumber`] for a text.
     pub fn decode(&self, raw: i128, with: &[i128]) -> Result<AnyValue<'static>, Error> {
         if let Some((code, _)) = self.codes.at(raw) {
             return Ok(AnyValue::Name(code));
@@ -55,7 +55,7 @@ impl PointFacts {
         })
     }
 
-    /// The raw number of a value, checked, by the raw numbers of [`write_needs`](crate::PointInfo::write_needs).
+    /// Encodes and checks a value, with the raw numbers of [`write_needs`](crate::PointInfo::write_needs).
     ///
     /// # Errors
     /// As [`Encodable::encode_with`](crate::Encodable::encode_with); [`Error::UnknownName`] for a name that the point
@@ -72,7 +72,7 @@ impl PointFacts {
         Ok(raw)
     }
 
-    /// Whether a raw number may be written, by the raw numbers of [`write_needs`](crate::PointInfo::write_needs).
+    /// Checks that a raw number may be written, with the raw numbers of [`write_needs`](crate::PointInfo::write_needs).
     ///
     /// # Errors
     /// As [`Writable::check_with`](crate::Writable::check_with); [`Error::Access`] if the point is not written.
@@ -98,7 +98,7 @@ impl PointFacts {
         }
     }
 
-    /// The raw number of an integer that needs no scale, with the bits that are always the same.
+    /// The raw number of an integer that needs no scale, with its constant bits.
     fn stored(&self, number: i128, with: &[i128]) -> Result<i128, Error> {
         let raw = self.with_fixed_bits(number);
         let checked = self.check(raw, with);
@@ -198,7 +198,7 @@ impl PointFacts {
         (low.unwrap_or_default(), high.unwrap_or_default())
     }
 
-    /// What is said of a number that is a special code.
+    /// The error for a number that is a special code.
     const fn no_quantity(&self, code: &'static str, is_writable: bool) -> Error {
         let point = self.name;
         Error::Special {
@@ -208,7 +208,7 @@ impl PointFacts {
         }
     }
 
-    /// What is said of a raw number that is not taken.
+    /// The error for a raw number that may not be written.
     pub(super) fn refused(&self, raw: i128) -> Error {
         let (low, high) = self.raw_limits();
         let [given, low, high] = [raw, low, high].map(saturated);
@@ -225,7 +225,7 @@ impl PointFacts {
         }
     }
 
-    /// What is said of a raw number without the bits that are always the same.
+    /// The error for a raw number without its constant bits.
     fn lacks_fixed_bits(&self, raw: i128) -> Error {
         let (mask, bits) = self.fixed;
         Error::OutOfRange(Refused::FixedBits {
@@ -236,7 +236,7 @@ impl PointFacts {
         })
     }
 
-    /// What is said of a value that is not taken, by the raw numbers that are.
+    /// The error for a value that may not be written, from the raw numbers that may.
     fn refused_value(&self, given: f64, raw: (i128, i128)) -> Error {
         let (one, other) = (self.quantity(raw.0), self.quantity(raw.1));
         let (low, high) = in_order(one, other, raw.0 <= raw.1);
@@ -254,7 +254,7 @@ impl PointFacts {
         })
     }
 
-    /// The raw number with the bits that are always the same, unless the point shares its word.
+    /// The raw number with its constant bits, unless the point shares its word.
     fn with_fixed_bits(&self, raw: i128) -> i128 {
         let (mask, bits) = self.fixed;
         if self.mask.is_some() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: 0BSD
-//! What a table knows of a point: where it is, and how values are made of its raw numbers.
+//! The facts of a point as data: where it is, and how its raw numbers become values.
 
 use core::fmt;
 
@@ -8,7 +8,7 @@ use crate::{Access, Code, Error, Point, Raw, Space};
 
 use super::{DataScale, Needs};
 
-/// What a point is called, where it is, what can be done with it, and what its raw numbers mean.
+/// The name of a point, its place, its access, and the meaning of its raw numbers.
 #[derive(Clone, Copy)]
 #[non_exhaustive]
 pub struct PointFacts {
@@ -24,7 +24,7 @@ pub struct PointFacts {
     pub base: &'static str,
     /// The addresses of all words in reading order: the high part or the first characters first.
     pub addresses: &'static [u16],
-    /// How many words, or bits of a bit space, the point takes.
+    /// The number of words, or of bits in a bit space, that the point takes.
     pub words: u16,
     /// The point's bits in a word which it shares with others.
     pub mask: Option<u16>,
@@ -34,11 +34,11 @@ pub struct PointFacts {
     pub telegram: Option<&'static str>,
     /// The symbol of the value's unit; empty for a plain number.
     pub unit: &'static str,
-    /// How many decimals counts have.
+    /// The number of decimals of counts.
     pub decimals: u32,
-    /// With how many decimals people see the value, where the description says it.
+    /// The number of decimals that people see, if the description gives one.
     pub display_decimals: Option<u32>,
-    /// What can be done with it.
+    /// Its access.
     pub access: Access,
     pub(crate) write_address: u16,
     pub(crate) others: fn() -> Others,
@@ -60,7 +60,7 @@ pub struct Selection {
 }
 
 impl Selection {
-    /// That the point holds this raw number.
+    /// Requires that the point holds this raw number.
     #[must_use]
     pub const fn of<P: Point>(raw: i128) -> Self {
         let point = P::FACTS;
@@ -68,7 +68,7 @@ impl Selection {
     }
 }
 
-/// What a point needs of others before it is read.
+/// The other points that a point needs before it is read.
 #[derive(Clone, Copy, Debug)]
 pub struct Others {
     /// The points whose raw numbers decoding needs.
@@ -77,7 +77,7 @@ pub struct Others {
     pub selects: &'static [Selection],
 }
 
-/// What a point needs of others; points that nothing selects share a function.
+/// Returns what a point needs of others; points without a selection share a function.
 #[must_use]
 pub const fn others<N: Needs, P: Point>() -> fn() -> Others {
     if P::SELECTS.is_empty() {
@@ -93,7 +93,7 @@ pub const fn others<N: Needs, P: Point>() -> fn() -> Others {
     }
 }
 
-/// How values are made of raw numbers.
+/// How raw numbers become values.
 #[derive(Clone, Copy, Debug)]
 pub enum Form {
     /// The value is the raw number.
@@ -118,20 +118,20 @@ pub type ByOthers<N, R> = fn(N, &[i128]) -> Result<R, Error>;
 pub struct Writing {
     /// The ranges, where there are several.
     pub ranges: &'static [(i128, i128)],
-    /// Whether the numbers that have names are all that is taken.
+    /// True if only numbers with names may be written.
     pub is_closed: bool,
     /// The points whose raw numbers are needed.
     pub needs: fn() -> &'static [&'static PointFacts],
-    /// Whether a raw number may be written, where tables cannot tell.
+    /// Checks a raw number for writing, if tables cannot decide.
     pub check: Option<ByOthers<i128, ()>>,
-    /// The raw number of a value, where tables cannot tell.
+    /// Converts a value to a raw number, if tables cannot.
     pub encode: Option<ByOthers<f64, i128>>,
     /// The function that writes, if it is not the usual one.
     pub function: Option<u8>,
 }
 
 impl PointFacts {
-    /// How many items the request has that reads the point: [`Point::SPAN`].
+    /// The number of items in the request that reads the point: [`Point::SPAN`].
     #[must_use]
     pub const fn span(&self) -> u16 {
         span(self.addresses, self.words)
@@ -203,7 +203,7 @@ impl PointFacts {
         Self { writing, ..self }
     }
 
-    /// What tells the point from all others of its device.
+    /// The identity of the point within its device.
     const fn identity(&self) -> (&str, Option<&str>, Space, u16, Option<u8>) {
         let Self {
             name,
@@ -244,7 +244,7 @@ impl core::hash::Hash for PointFacts {
 type FromWords = fn([u16; 4]) -> i128;
 type IntoWords = fn(i128) -> Option<[u16; 4]>;
 
-/// How a type of raw numbers lies in words, which are in reading order.
+/// The conversion of a type of raw numbers to words in reading order, and back.
 #[derive(Clone, Copy)]
 pub(super) struct RawType {
     pub(super) from_words: FromWords,
@@ -255,7 +255,7 @@ pub(super) struct RawType {
 
 impl RawType {
     const fn of<P: Point>() -> Self {
-        // Points that lie in words as most do share functions: programs are smaller, and compile sooner.
+        // Points with the usual layout of words share functions, so that programs are smaller and compile faster.
         let is_usual = P::WIDTH == 0 && !P::CODED && !P::LOW_BYTE_FIRST;
         let (from_words, into_words): (FromWords, IntoWords) = if is_usual {
             (joined::<P::Raw>, parted::<P::Raw>)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: 0BSD
-//! Points as data: what a program needs that learns their names at run time, such as a gateway.
+//! Points as data, for programs that learn the names of points at run time, such as a gateway.
 //!
 //! The facts are tables; only scales and limits that need other points are code.
 
@@ -96,7 +96,7 @@ impl Needs for () {
 /// The value of a point whose scale needs others, for [`Form::Ruled`].
 ///
 /// # Errors
-/// What its rule says; [`Error::Missing`] if the numbers of others are not all there.
+/// Those of its rule; [`Error::Missing`] if numbers of other points are missing.
 pub fn ruled<P: Scaled<Factors: Needs>>(raw: i128, with: &[i128]) -> Result<f64, Error> {
     let factors = P::Factors::from_raws(with).ok_or_else(missing::<P, P::Factors>)?;
     let beyond = Error::Overflow(Some(P::NAME));
@@ -106,7 +106,7 @@ pub fn ruled<P: Scaled<Factors: Needs>>(raw: i128, with: &[i128]) -> Result<f64,
 /// Whether a raw number may be written, for [`Writing::check`].
 ///
 /// # Errors
-/// As [`Writable::check_with`]; [`Error::Missing`] if the numbers of others are not all there.
+/// As [`Writable::check_with`]; [`Error::Missing`] if numbers of other points are missing.
 pub fn checked<P: Writable<With: Needs>>(raw: i128, with: &[i128]) -> Result<(), Error> {
     let needs = P::With::from_raws(with).ok_or_else(missing::<P, P::With>)?;
     let number = P::Raw::from_i128(raw);
@@ -116,7 +116,7 @@ pub fn checked<P: Writable<With: Needs>>(raw: i128, with: &[i128]) -> Result<(),
 /// The raw number of a value, for [`Writing::encode`].
 ///
 /// # Errors
-/// As [`Encodable::encode_with`]; [`Error::Missing`] if the numbers of others are not all there.
+/// As [`Encodable::encode_with`]; [`Error::Missing`] if numbers of other points are missing.
 pub fn encoded<P>(value: f64, with: &[i128]) -> Result<i128, Error>
 where
     P: Encodable<With: Needs, Value: From<f64>>,
@@ -125,7 +125,7 @@ where
     P::encode_with(value.into(), needs).map(Raw::to_i128)
 }
 
-/// What is said where the raw numbers of other points are not all there.
+/// The error if raw numbers of other points are missing.
 fn missing<P: Point, N: Needs>() -> Error {
     let (point, needs) = (P::NAME, N::points());
     Error::Missing { point, needs }

@@ -53,7 +53,7 @@ pub fn decode<P: Point<Raw: Pattern>, V: From<f64>>(raw: P::Raw, (): ()) -> V {
     raw.number().into()
 }
 
-/// What people see of the number.
+/// The number as people see it.
 ///
 /// # Errors
 /// None.
@@ -64,7 +64,7 @@ pub fn shown<P: Point<Raw: Pattern>>(raw: P::Raw, (): ()) -> Result<Shown, Error
 /// The pattern nearest to a value, checked.
 ///
 /// # Errors
-/// What [`Writable::check_with`] says; [`Error::NotANumber`].
+/// Those of [`Writable::check_with`]; [`Error::NotANumber`].
 #[inline]
 pub fn encode<P: Writable<Raw: Pattern>, V: Into<f64>>(
     value: V,

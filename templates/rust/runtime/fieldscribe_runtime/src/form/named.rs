@@ -15,7 +15,7 @@ pub fn decode<P: Named, V: From<P::Carried>>(raw: P::Raw, (): ()) -> V {
 /// The raw number of a name, checked.
 ///
 /// # Errors
-/// What [`Writable::check_with`] says.
+/// Those of [`Writable::check_with`].
 #[inline]
 pub fn encode<P: Named + Writable, V: Into<P::Carried>>(
     value: V,

@@ -11,11 +11,11 @@ pub trait Packed: Point {
     const LAYOUT: Layout;
 }
 
-/// A text that words of a layout make, and that makes such words.
+/// Converts words of a layout to a text, and back.
 pub trait Packs<W>: Copy {
     /// The text of the words.
     fn unpacked(words: W, layout: Layout) -> Self;
-    /// The words of the text; none where a character of it would end it.
+    /// The words of the text; none if one of its characters would end it.
     fn packed(self, layout: Layout) -> Option<W>;
 }
 
@@ -50,7 +50,7 @@ pub fn decode<P: Packed, V: Packs<P::Raw>>(raw: P::Raw, (): ()) -> V {
 /// The words of a text, checked.
 ///
 /// # Errors
-/// [`Error::BadText`], and what [`Writable::check_with`] says.
+/// [`Error::BadText`], and those of [`Writable::check_with`].
 #[inline]
 pub fn encode<P: Packed + Writable, V: Packs<P::Raw>>(
     value: V,

@@ -10,7 +10,7 @@ use crate::{Error, Raw, Rule, Scaled, Shown, Writable};
 /// The value: the binary64 number nearest to the exact one.
 ///
 /// # Errors
-/// What the rule says; [`Error::Overflow`].
+/// Those of the rule; [`Error::Overflow`].
 #[inline]
 pub fn decode<P: Scaled, V: From<f64>>(raw: P::Raw, with: P::Factors) -> Result<V, Error> {
     let rule = holding::<P>(raw, with)?;
@@ -22,10 +22,10 @@ pub fn decode<P: Scaled, V: From<f64>>(raw: P::Raw, with: P::Factors) -> Result<
     value.map(V::from).map_err(Error::of::<P>)
 }
 
-/// The count nearest to the value, halves away from zero.
+/// The count nearest to the value, rounded half away from zero.
 ///
 /// # Errors
-/// What the rule says; [`Error::Overflow`].
+/// Those of the rule; [`Error::Overflow`].
 #[inline]
 pub fn decode_count<P: Scaled, C: From<i64>>(raw: P::Raw, with: P::Factors) -> Result<C, Error> {
     let rule = holding::<P>(raw, with)?;
@@ -33,10 +33,10 @@ pub fn decode_count<P: Scaled, C: From<i64>>(raw: P::Raw, with: P::Factors) -> R
     count.map(C::from).map_err(Error::of::<P>)
 }
 
-/// What people see of the value, rounded from the exact one.
+/// The value as people see it, rounded from the exact one.
 ///
 /// # Errors
-/// What the rule says; [`Error::Overflow`].
+/// Those of the rule; [`Error::Overflow`].
 pub fn shown<P: Scaled>(raw: P::Raw, with: P::Factors) -> Result<Shown, Error> {
     let rule = holding::<P>(raw, with)?;
     let count = rule.shown_count(raw.to_i64(), display::per_unit::<P>());
@@ -57,7 +57,7 @@ fn holding<P: Scaled>(raw: P::Raw, with: P::Factors) -> Result<Rule, Error> {
 /// The raw number nearest to a value, checked; each step is rounded to binary64.
 ///
 /// # Errors
-/// What the rule and [`Writable::check_with`] say; [`Error::NotANumber`].
+/// Those of the rule and of [`Writable::check_with`]; [`Error::NotANumber`].
 #[inline]
 pub fn encode<P, V: Into<f64>>(value: V, with: P::With) -> Result<P::Raw, Error>
 where
@@ -75,7 +75,7 @@ where
 /// The raw number nearest to a count, halves away from zero, checked.
 ///
 /// # Errors
-/// What the rule and [`Writable::check_with`] say.
+/// Those of the rule and of [`Writable::check_with`].
 #[inline]
 pub fn encode_count<P, C: Into<i64>>(count: C, with: P::With) -> Result<P::Raw, Error>
 where

@@ -270,7 +270,7 @@ fn rtu_length(function: u8, count: u8) -> usize {
     }
 }
 
-/// What is said of a frame of that length.
+/// The error for a frame of that length.
 #[cold]
 pub(super) fn wrong_length(length: usize, expected: usize) -> ReplyError {
     let received = u16::try_from(length).unwrap_or(u16::MAX);

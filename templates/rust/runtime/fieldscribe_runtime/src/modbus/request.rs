@@ -208,10 +208,10 @@ impl<'a> Request<'a> {
         self.unit
     }
 
-    /// Writes the frame into `buffer` and gives its length in bytes.
+    /// Writes the frame into `buffer` and returns its length in bytes.
     ///
     /// # Errors
-    /// Whatever the device would not take, and a buffer that is too small.
+    /// Everything that the device would refuse, and a buffer that is too small.
     pub fn build(&self, profile: &Profile, buffer: &mut [u8]) -> Result<usize, BuildError> {
         self.build_in(profile, buffer).map(<[u8]>::len)
     }

@@ -22,7 +22,7 @@ const WORDS: usize = 16;
 /// The longest telegram that a client sends: four words of the parameter part, and the process data.
 const SENT: usize = 4 + 2 * (4 + WORDS);
 
-/// The words that are sent again and again, and whether the drive may not have them yet.
+/// The words that every telegram repeats, and whether the drive may not have received them yet.
 #[derive(Clone, Copy, Debug)]
 struct Process {
     words: [u16; WORDS],
@@ -37,7 +37,7 @@ impl Process {
     };
 }
 
-/// One drive of a bus: keeps the words that it is sent again and again, and those that it answered with.
+/// One drive of a bus: keeps the words that every telegram to it repeats, and those of its last answer.
 #[derive(Debug)]
 struct Drive {
     profile: &'static Profile,
@@ -66,8 +66,8 @@ impl Drive {
 
     /// The telegram to send and the space for its answer.
     ///
-    /// From here on until the answer nobody knows which of two sets of words the drive has, so neither may be repeated:
-    /// the old words could start again what the new ones stopped. That also holds if nobody waits for the answer.
+    /// Until the answer arrives, it is unknown which of two sets of words the drive has, so neither may be repeated:
+    /// the old words could restart what the new ones stopped. The same holds if nobody waits for the answer.
     fn telegrams(
         &mut self,
         request: &Request,
@@ -104,7 +104,7 @@ impl Drive {
         Ok(sent)
     }
 
-    /// The answer in the first bytes that were received; its process data are kept.
+    /// Parses the first bytes that were received, and keeps the process data of the answer.
     fn reply(
         &mut self,
         request: &Request,
@@ -115,7 +115,7 @@ impl Drive {
         let received = received.ok_or(ReplyError::WrongLength)?;
         trace::frame(self.unit, Way::Came, None, received);
         let reply = request.parse(self.profile, self.link, received);
-        // A drive that does not do the task has taken the process data of the telegram all the same.
+        // A drive that refuses the task has taken the process data of the telegram nevertheless.
         let is_about_this = matches!(
             reply,
             Ok(_) | Err(ReplyError::Refused { .. } | ReplyError::NoRights | ReplyError::NoAnswer)
@@ -218,18 +218,18 @@ fn failed<E>(unit: u8, error: E) -> ClientError<E> {
     ClientError::Transport(error, None)
 }
 
-/// The same client twice: what differs is how it waits for the transport.
+/// The same client twice, blocking and async: only how it waits for the transport differs.
 macro_rules! client {
     ($client:ident, $transport:ident, $about:literal, [$($async:ident)?], [$($wait:tt)*]) => {
         #[doc = $about]
         ///
-        /// Every telegram carries the words of process data as they were set last, and 0 for words that were never set:
-        /// the constant bits of a word, as the one that makes a control word valid, come with the first point of that
-        /// word. A drive without a valid control word goes on as before.
+        /// Every telegram carries the words of process data as they were last set, and 0 for words that were never set.
+        /// The constant bits of a word, such as the one that makes a control word valid, come with the first point of
+        /// that word. A drive without a valid control word goes on as before.
         ///
-        /// When words are new and their telegram fails (no answer, a wrong one, or nobody waited for it), nobody knows
-        /// which words the drive has. So neither the old nor the new ones are repeated: all words are 0 from then on,
-        /// until they are set again, each of them. A drive that refuses a task has taken the words all the same.
+        /// If a telegram with new words fails (no answer, a wrong one, or nobody waited for it), it is unknown which
+        /// words the drive has. Then neither the old nor the new words are repeated: all words are 0 until each is set
+        /// again. A drive that refuses a task has taken the words nevertheless.
         #[derive(Debug)]
         pub struct $client<T, D = AnyDevice> {
             transport: T,
@@ -238,14 +238,14 @@ macro_rules! client {
         }
 
         impl<T: $transport, D: Device<Profile = Profile>> $client<T, D> {
-            /// The drive of that unit behind a transport.
+            /// Returns a client for the drive with this unit number behind a transport.
             pub const fn new(transport: T, link: Link, unit: u8) -> Self {
                 Self { transport, drive: Drive::new(D::PROFILE, link, unit), device: PhantomData }
             }
         }
 
         impl<T: $transport> $client<T> {
-            /// The drive of that unit, of a device that is chosen at run time; its client takes every point.
+            /// Returns a client for a device that is chosen at run time; it takes the points of every device.
             pub const fn for_profile(
                 transport: T,
                 profile: &'static Profile,
@@ -258,7 +258,7 @@ macro_rules! client {
 
         impl<T, D> $client<T, D> {
 
-            /// The transport, as for its settings.
+            /// The transport, for example to change its settings.
             pub fn transport(&mut self) -> &mut T {
                 &mut self.transport
             }
@@ -282,7 +282,7 @@ macro_rules! client {
             /// Sets a group of bits of the process data, which the next telegram carries.
             ///
             /// # Errors
-            /// What encoding says; [`Error::BeyondLink`] if the link has not so many words.
+            /// Those of encoding; [`Error::BeyondLink`] if the link has fewer words.
             pub fn set_bits<P>(&mut self, value: P::Value) -> Result<(), Error>
             where
                 P: EncodableAlone + BitGroup + Sent,
@@ -296,7 +296,7 @@ macro_rules! client {
             /// caller's.
             ///
             /// # Errors
-            /// [`Error::BeyondLink`] if the link has not so many words.
+            /// [`Error::BeyondLink`] if the link has fewer words.
             pub fn set_word(&mut self, position: u16, word: u16) -> Result<(), Error> {
                 self.drive.process = self.drive.with_word(position, word)?;
                 Ok(())
@@ -319,8 +319,8 @@ macro_rules! client {
             /// A point of the process data of the last answer, also of one that refused a task.
             ///
             /// # Errors
-            /// What decoding says; [`Error::NotHeard`] if the last telegram was not answered; [`Error::BeyondLink`] if
-            /// the link has not so many words.
+            /// Those of decoding; [`Error::NotHeard`] if the last telegram was not answered; [`Error::BeyondLink`] if
+            /// the link has fewer words.
             pub fn heard<P>(&self) -> Result<P::Value, Error>
             where
                 P: Readable<Factors: NeedsNothing> + Received,
@@ -329,7 +329,7 @@ macro_rules! client {
                 self.heard_with::<P>(NeedsNothing::nothing())
             }
 
-            /// As `heard`, by the raw numbers that the point's scale needs.
+            /// As `heard`, with the raw numbers that the point's scale needs.
             ///
             /// # Errors
             /// The same.
@@ -353,7 +353,7 @@ macro_rules! client {
                 self.heard_count_with::<P>(NeedsNothing::nothing())
             }
 
-            /// As `heard_count`, by the raw numbers that the point's scale needs.
+            /// As `heard_count`, with the raw numbers that the point's scale needs.
             ///
             /// # Errors
             /// The same.
@@ -370,8 +370,8 @@ macro_rules! client {
             /// The answer to a request; the telegram carries the process data too.
             ///
             /// # Errors
-            /// Whatever [`ClientError`] tells; [`BuildError::OtherUnit`] for a request to another unit, which is not to
-            /// take this one's process data.
+            /// Any [`ClientError`]; [`BuildError::OtherUnit`] for a request to another unit, which must not receive the
+            /// process data of this one.
             pub $($async)? fn exchange(
                 &mut self,
                 request: Request,
@@ -379,7 +379,7 @@ macro_rules! client {
                 self.exchange_with(request, self.drive.process)$($wait)*
             }
 
-            /// The answer to a request that carries these process data, which stay in force if the drive answers.
+            /// Returns the answer to a request with these process data, which are kept if the drive answers.
             $($async)? fn exchange_with(
                 &mut self,
                 request: Request,
@@ -391,17 +391,17 @@ macro_rules! client {
                 Ok(self.drive.reply(&request, &process, length)?)
             }
 
-            /// Sends the process data and keeps what the drive answers with.
+            /// Sends the process data and keeps those of the answer.
             ///
             /// # Errors
-            /// Whatever [`ClientError`] tells.
+            /// Any [`ClientError`].
             pub $($async)? fn cycle(&mut self) -> Result<(), ClientError<T::Error>> {
                 let request = Request::cyclic(self.drive.unit);
                 self.exchange(request)$($wait)*?;
                 Ok(())
             }
 
-            /// Sends this client's process data to all units, of which none answers: nobody knows who heard it.
+            /// Sends this client's process data to all units. None of them answers, so it is unknown which received it.
             ///
             /// The first mask says which words are meant: bit 1 the first word, bit 2 the second. The second mask says
             /// which bits of the first word are meant, the others which of a further control word: `[6, 0xFFFF, 0, 0]`
@@ -409,8 +409,8 @@ macro_rules! client {
             /// own words with their next telegram: set those too, or a stop for all lasts until then.
             ///
             /// # Errors
-            /// Whatever [`ClientError`] tells; [`BuildError::BadMask`] if the first word is meant without the bits that
-            /// make it valid, which are in the word as soon as one of its points was set.
+            /// Any [`ClientError`]; [`BuildError::BadMask`] if the first word is meant without the bits that make it
+            /// valid, which are in the word as soon as one of its points was set.
             pub $($async)? fn broadcast(
                 &mut self,
                 masks: [u16; 4],
@@ -446,7 +446,7 @@ macro_rules! client {
             /// Sets a group of bits of the process data and sends it. It stays set if the drive answers.
             ///
             /// # Errors
-            /// Whatever [`ClientError`] tells.
+            /// Any [`ClientError`].
             pub $($async)? fn send_bits<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
                 P: EncodableAlone + BitGroup + Sent,
@@ -517,7 +517,7 @@ macro_rules! client {
             /// Changes a group of bits until the power is off: reads the word, replaces the bits, writes the word back.
             ///
             /// # Errors
-            /// Whatever [`ClientError`] tells.
+            /// Any [`ClientError`].
             pub $($async)? fn update<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
                 P: Readable + EncodableAlone + BitGroup + Parameter,
@@ -531,7 +531,7 @@ macro_rules! client {
             /// As `update`, in the EEPROM too.
             ///
             /// # Errors
-            /// Whatever [`ClientError`] tells.
+            /// Any [`ClientError`].
             pub $($async)? fn store_update<P>(
                 &mut self,
                 value: P::Value,
@@ -545,7 +545,7 @@ macro_rules! client {
                 self.confirmed::<P>(Request::store_update::<P>(self.drive.unit, word, raw))$($wait)*
             }
 
-            /// Writes a parameter and holds the answer against what was written.
+            /// Writes a parameter and compares the answer with what was written.
             $($async)? fn confirmed<P: Parameter>(
                 &mut self,
                 request: Request,

@@ -25,7 +25,7 @@ use crate::Point;
 /// The longest telegram in bytes.
 pub const LONGEST: usize = 256;
 
-/// The setting of the parameter part that lets its length follow from the value.
+/// The setting for a parameter part whose length follows from the value.
 pub const VARIABLE: u8 = 127;
 
 const START: u8 = 0x02;

@@ -42,7 +42,7 @@ impl Reply<'_> {
         }
     }
 
-    /// The raw number of a point that the value is.
+    /// The value as the raw number of a point.
     ///
     /// # Errors
     /// [`Error::WrongLength`] if the point has another number of words.
@@ -55,10 +55,10 @@ impl Reply<'_> {
 }
 
 impl Request {
-    /// What bytes say as the answer to this request. Any bytes at any length are safe.
+    /// Parses bytes as the answer to this request. Bytes of any content and length are safe.
     ///
     /// # Errors
-    /// Why the bytes are no such answer, or that the drive refused.
+    /// Why the bytes are no answer to this request, or the refusal of the drive.
     pub fn parse<'b>(
         &self,
         profile: &Profile,
