@@ -83,6 +83,14 @@ def test_what_the_draft_says(tmp_path: Path) -> None:
         assert f"{line}\n" in text, line
 
 
+def test_names_differ_in_more_than_underscores(tmp_path: Path) -> None:
+    """In languages that write no underscores, such names would be one."""
+    signals = "".join(f' SG_ {name} : {8 * at}|8@1+ (1,0) [0|0] "" D\n' for at, name in enumerate(("temp1", "temp_1")))
+    text = written(tmp_path, text=f'VERSION ""\nBU_: D\nBO_ 1 M: 8 D\n{signals}')
+    assert "name: temp1" in text
+    assert "name: temp_1_n2" in text
+
+
 def test_a_node_receives_what_others_send(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     text = written(tmp_path, "--node", "ENGINE")
     assert "{name: limits, title: {en: Limits}, direction: request" in text
