@@ -30,14 +30,14 @@ enum {
     FIELDSCRIBE_SHOWN_FAILURES = 20
 };
 
-/* A function that all points call: compiled once, for a copy at each of thousands of calls costs compilers a minute. */
+/* A function that all points call, never inlined: copies at thousands of calls cost a minute of compilation. */
 #if defined(__GNUC__)
 #define FIELDSCRIBE_ONCE static __attribute__((noinline, unused))
 #else
 #define FIELDSCRIBE_ONCE static inline
 #endif
 
-/* What the head of the file says of a kind or a set. */
+/* A kind or a set, as the head of the file describes it. */
 typedef struct fieldscribe_kind {
     const char *name;
     const char *keys[FIELDSCRIBE_FIELDS_MOST];
@@ -50,7 +50,7 @@ typedef struct fieldscribe_kind {
     unsigned long skipped;
 } fieldscribe_kind;
 
-/* A line taken apart. */
+/* The parts of a line. */
 typedef struct fieldscribe_line {
     fieldscribe_kind *kind;
     char *fields[FIELDSCRIBE_FIELDS_MOST];
@@ -61,7 +61,7 @@ typedef struct fieldscribe_line {
 
 struct fieldscribe_suite;
 
-/* What a line asks, and whether the answers so far are those of the line. */
+/* The question of a line, and whether all answers so far are right. */
 typedef struct fieldscribe_vector {
     const struct fieldscribe_suite *suite;
     fieldscribe_line own;
@@ -70,7 +70,7 @@ typedef struct fieldscribe_vector {
     bool answered;
     bool differs;
     uint16_t base; /* the addresses of the point count from here */
-    size_t selecting; /* so many steps of the script select the point */
+    size_t selecting; /* the number of steps of the script that select the point */
     size_t matched; /* pairs of a map that were found */
     const void *receiver; /* of a telegram, as its family has it */
 } fieldscribe_vector;
@@ -110,7 +110,7 @@ static bool fieldscribe_absent(const char *field)
     return strcmp(field, "-") == 0;
 }
 
-/* The field of that name of the line, or else of the set nearest to it; a name that nothing has is a difference. */
+/* The field of this name in the line, else in the nearest set before it; an unknown name is a difference. */
 FIELDSCRIBE_ONCE const char *fieldscribe_field(fieldscribe_vector *v, const char *key)
 {
     fieldscribe_line *line = &v->own;
@@ -132,7 +132,7 @@ FIELDSCRIBE_ONCE const char *fieldscribe_field(fieldscribe_vector *v, const char
     }
 }
 
-/* The two's complement pattern of a number of any width and sign. */
+/* A number of any width and sign as a pattern in two's complement. */
 static uint64_t fieldscribe_pattern(const char *text)
 {
     const uint64_t size = (uint64_t)strtoull(*text == '-' ? text + 1 : text, NULL, 10);
@@ -170,7 +170,7 @@ static int fieldscribe_digit(char digit)
     return found != NULL ? (int)((found - digits) & 15) : -1;
 }
 
-/* The bytes of a field of hexadecimal digits; returns how many, `most` at most. */
+/* Stores the bytes of a field of hexadecimal digits, `most` at most; returns their number. */
 static size_t fieldscribe_hex(const char *field, uint8_t *bytes, size_t most)
 {
     size_t count = 0U;
@@ -187,7 +187,7 @@ FIELDSCRIBE_ONCE size_t fieldscribe_bytes(fieldscribe_vector *v, const char *key
     return fieldscribe_hex(fieldscribe_field(v, key), bytes, most);
 }
 
-/* The numbers of a list; returns how many there are, of which at most `most` are stored. */
+/* Stores the numbers of a list, `most` at most; returns how many there are. */
 FIELDSCRIBE_ONCE size_t fieldscribe_numbers(fieldscribe_vector *v, const char *key, uint16_t *numbers, size_t most)
 {
     const char *at = fieldscribe_field(v, key);
@@ -206,7 +206,7 @@ FIELDSCRIBE_ONCE size_t fieldscribe_numbers(fieldscribe_vector *v, const char *k
     return count;
 }
 
-/* Whether a field up to its end, a comma or an equals sign, its escapes undone, is the text. */
+/* Whether a field, up to its end, a comma or an equals sign, is this text once its escapes are undone. */
 FIELDSCRIBE_ONCE bool fieldscribe_spells(const char *field, const char *text)
 {
     while (*field != '\0' && *field != ',' && *field != '=') {
@@ -230,7 +230,7 @@ FIELDSCRIBE_ONCE bool fieldscribe_spells(const char *field, const char *text)
     return *text == '\0';
 }
 
-/* What stands behind the name in a map; NULL when it is not there. */
+/* The value of a name in a map; NULL if the map does not have it. */
 static const char *fieldscribe_pair(fieldscribe_vector *v, const char *key, const char *name)
 {
     const char *at = fieldscribe_field(v, key);
@@ -260,7 +260,7 @@ FIELDSCRIBE_ONCE bool fieldscribe_asks(const fieldscribe_vector *v, const char *
     return strcmp(v->own.kind->name, kind) == 0;
 }
 
-/* Whether the line is about that part of the point. */
+/* Whether the line asks about this part of the point. */
 FIELDSCRIBE_ONCE bool fieldscribe_asks_of(fieldscribe_vector *v, const char *kind, const char *key, const char *name)
 {
     return fieldscribe_asks(v, kind) && fieldscribe_spells(fieldscribe_field(v, key), name);
@@ -302,7 +302,7 @@ static inline void fieldscribe_stream_add(fieldscribe_stream *stream, const uint
 }
 
 /*
- * Noise of four kinds before an answer of at least four bytes: none, a byte that begins no answer, the beginning of an
+ * Noise of four kinds before an answer of at least four bytes: none, a byte that begins no answer, the start of an
  * answer that breaks off, and a whole answer with the byte `hurt` wrong. Returns its length.
  */
 static inline size_t fieldscribe_stream_noise(
@@ -357,7 +357,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_number(fieldscribe_vector *v, const char *k
     fieldscribe_agree(v, !fieldscribe_absent(field) && fieldscribe_pattern(field) == bits);
 }
 
-/* A number that is 0 where the field is absent, as it is when nothing was read. */
+/* The number of a field; 0 if it is absent, as when nothing was read. */
 FIELDSCRIBE_ONCE void fieldscribe_is_count(fieldscribe_vector *v, const char *key, uint64_t bits)
 {
     fieldscribe_agree(v, fieldscribe_bits(v, key) == bits);
@@ -369,7 +369,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_text(fieldscribe_vector *v, const char *key
     fieldscribe_agree(v, fieldscribe_absent(field) ? text == NULL : text != NULL && fieldscribe_spells(field, text));
 }
 
-/* Same bits, or both not a number; of a value in binary32 those of the number nearest to it. */
+/* Whether two numbers have the same bits, or are both NaN; a binary32 value is compared with the nearest one. */
 FIELDSCRIBE_ONCE void fieldscribe_is_real_of(fieldscribe_vector *v, size_t size, double b)
 {
     const double wide = fieldscribe_number_of(v, "value");
@@ -395,7 +395,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_words(fieldscribe_vector *v, const char *ke
         memcmp(expected, words, count * sizeof expected[0]) == 0);
 }
 
-/* What a caller's memory holds before a call, so that it shows what the call stores, and where. */
+/* The content of a caller's memory before a call, which shows what the call stores, and where. */
 enum { FIELDSCRIBE_PATTERN = 0x5A };
 
 FIELDSCRIBE_ONCE void fieldscribe_fill(void *memory, size_t size)
@@ -403,7 +403,7 @@ FIELDSCRIBE_ONCE void fieldscribe_fill(void *memory, size_t size)
     memset(memory, FIELDSCRIBE_PATTERN, size);
 }
 
-/* Nothing may have been stored from there on. */
+/* Checks that nothing was stored from there on. */
 FIELDSCRIBE_ONCE void fieldscribe_untouched(fieldscribe_vector *v, const void *memory, size_t size)
 {
     const uint8_t *const bytes = (const uint8_t *)memory;
@@ -461,7 +461,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_status(fieldscribe_vector *v, int status)
         }                                                                                        \
     }
 
-/* A status and, where it is ok, a number; nothing may be stored where it is not. */
+/* Checks a status and, if it is ok, a number; otherwise nothing may have been stored. */
 FIELDSCRIBE_ONCE void fieldscribe_stored(
     fieldscribe_vector *v, int status, const char *key, uint64_t bits, bool untouched)
 {
@@ -473,7 +473,7 @@ FIELDSCRIBE_ONCE void fieldscribe_stored(
     }
 }
 
-/* What stands in a number before it is read: another one than is expected, and 1 where none is. */
+/* The content of a number before it is read: not the expected one, or 1 if none is expected. */
 FIELDSCRIBE_ONCE uint64_t fieldscribe_other(fieldscribe_vector *v)
 {
     return fieldscribe_bits(v, "raw") ^ 1U;
@@ -486,7 +486,7 @@ FIELDSCRIBE_ONCE uint64_t fieldscribe_other(fieldscribe_vector *v)
 #define FIELDSCRIBE_WITH(name, type) , (type)fieldscribe_with(v, name)
 #define FIELDSCRIBE_TOGETHER(filled) , filled(v)
 
-/* Whether a number can be passed in that type at all; one that cannot is out of range by the type alone. */
+/* Whether the type of an argument holds the number; if not, it is out of range by the type alone. */
 FIELDSCRIBE_ONCE bool fieldscribe_fits_int32_t(const char *field)
 {
     const uint64_t bits = fieldscribe_pattern(field);
@@ -551,7 +551,7 @@ FIELDSCRIBE_ONCE bool fieldscribe_fits_uint64_t(const char *field)
 #define FIELDSCRIBE_DECODE(function, real_type, raw_type, with)
 #define FIELDSCRIBE_TRY_DECODE(function, real_type, raw_type, with)
 #else
-/* Whether a value of a line can be told in that type; where float is chosen, what it cannot hold is not asked. */
+/* Whether the type holds a value of the line; with float, other values are left out. */
 FIELDSCRIBE_ONCE bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
 {
     const double value = fieldscribe_number_of(v, "value");
@@ -603,7 +603,7 @@ FIELDSCRIBE_ONCE bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
     }
 
 /*
- * `order` is what makes the high byte of the word the first: a cast where it is the first. `is_plain` says that the
+ * `order` puts the high byte of the word first; it is a cast if that is first already. `is_plain` says that the
  * bits are the number.
  */
 #define FIELDSCRIBE_BITS_IN(order, is_plain, function, raw_type, macro)                          \
@@ -646,10 +646,10 @@ FIELDSCRIBE_ONCE bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         fieldscribe_are_all_pairs(v, "references");                                              \
     }
 
-/* What stands beside an address, as far as the point has it. */
+/* The facts beside an address that the point has. */
 #define FIELDSCRIBE_ONE(macro) fieldscribe_is_number(v, "words", 1U);
 #define FIELDSCRIBE_SEVERAL(macro) fieldscribe_is_number(v, "words", macro##_WORDS);
-/* What a header says in comments alone, where the model is all that can be asked. */
+/* Facts that a header has in comments only, and are taken from the model. */
 #define FIELDSCRIBE_SPACE(space) fieldscribe_is_text(v, "space", space);
 #define FIELDSCRIBE_CODE(code) fieldscribe_is_text(v, "code", code);
 #define FIELDSCRIBE_REFERENCE(key, number) fieldscribe_is_pair(v, "references", key, (uint64_t)(number));
@@ -662,7 +662,7 @@ FIELDSCRIBE_ONCE bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
     fieldscribe_is_number(v, "raw_max", (uint64_t)(macro##_RAW_MAX));
 #define FIELDSCRIBE_DECIMALS(macro) fieldscribe_is_number(v, "decimals", (uint64_t)(macro##_DECIMALS));
 
-/* The words of a point in order, and what stands beside them. */
+/* The words of a point in order, and the facts beside them. */
 #define FIELDSCRIBE_INDEX(macro) fieldscribe_is_number(v, "index", (uint64_t)(macro##_INDEX));
 #define FIELDSCRIBE_TELEGRAM(macro) fieldscribe_is_text(v, "telegram", v->suite->telegrams[macro##_TELEGRAM]);
 #define FIELDSCRIBE_PLACED(macro, offset) (uint16_t)(macro##_ADDRESS + offset),
@@ -843,7 +843,7 @@ FIELDSCRIBE_ONCE bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         fieldscribe_stored(v, status, "raw", raw, raw == 1U);                                    \
     }
 
-/* A flag of several bits: their number, and where they lie. */
+/* A flag of several bits: its number and its place. */
 #define FIELDSCRIBE_WIDE_FLAG(flag, bits, macro)                                                 \
     if (fieldscribe_asks_of(v, "flag", "flag", flag)) {                                          \
         const uint64_t raw = fieldscribe_bits(v, "raw");                                         \
@@ -869,7 +869,7 @@ FIELDSCRIBE_ONCE bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         fieldscribe_is_number(v, "high", (uint64_t)(last));                                      \
     }
 
-/* The special code that a raw number is, and the one that decoding it answers with. */
+/* The special code of a raw number, and the one that decoding returns. */
 #define FIELDSCRIBE_SPECIAL_NAME(function, raw_type)                                             \
     if (fieldscribe_asks(v, "special_name")) {                                                   \
         const raw_type raw = (raw_type)fieldscribe_bits(v, "raw");                               \
@@ -905,7 +905,7 @@ FIELDSCRIBE_ONCE bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         index                                                                                    \
     }
 
-/* Whether the line is about that part of a device, or about none where there is no part. */
+/* Whether the line asks about this part of the device, or about no part if there is none. */
 FIELDSCRIBE_ONCE bool fieldscribe_is_part(fieldscribe_vector *v, const char *part)
 {
     const char *const field = fieldscribe_field(v, "of");
@@ -936,7 +936,7 @@ FIELDSCRIBE_ONCE bool fieldscribe_is_part(fieldscribe_vector *v, const char *par
         fieldscribe_are_all_pairs(v, "variant");                                                 \
     }
 
-/* What a point was called before: each old name stands for the same as the new one. */
+/* The old names of a point: each means the same as the new one. */
 typedef void (*fieldscribe_function)(void);
 
 FIELDSCRIBE_ONCE bool fieldscribe_same_function(fieldscribe_function one, fieldscribe_function other)
@@ -998,7 +998,7 @@ FIELDSCRIBE_ONCE fieldscribe_layout fieldscribe_other_type(const fieldscribe_lay
     return other;
 }
 
-/* The least number that a point has no bit for, in two's complement as well as from 0 on. */
+/* The least number that has no room in the bits of a point, with or without a sign. */
 FIELDSCRIBE_ONCE uint32_t fieldscribe_too_much(const fieldscribe_layout *layout)
 {
     const uint32_t most = (uint32_t)(layout->mask >> layout->shift);
@@ -1057,7 +1057,7 @@ FIELDSCRIBE_ONCE bool fieldscribe_fills(const fieldscribe_layout *layout, size_t
         fieldscribe_agree(v, fieldscribe_put_##kind(how, raw, into, how->words));                \
     }
 
-/* The same of a point with functions of its own, which its word, or words, come from and go into. */
+/* The same for a point with its own functions to read and write its words. */
 #define FIELDSCRIBE_FORM(item, raw_type, taken, put)                                             \
     FIELDSCRIBE_ONCE void fieldscribe_taken_of_##item(                                           \
         fieldscribe_vector *v, const fieldscribe_layout *how, const uint16_t *words)             \
@@ -1149,12 +1149,12 @@ static inline void fieldscribe_holds_long_numbers(fieldscribe_vector *v)
 
 /* ---- Whole exchanges ---- */
 
-/* The step of a script at that place: what is sent and what comes back; false when there is none. */
+/* The step of a script at this position: what is sent and received; false if there is none. */
 static inline bool fieldscribe_step(fieldscribe_vector *v, size_t place, const char **sent, const char **received)
 {
     const char *at = fieldscribe_field(v, "script");
     if (!fieldscribe_asks(v, "command") && !fieldscribe_asks(v, "base")) {
-        (void)fieldscribe_field(v, "needs"); /* read by languages whose devices ask for other points themselves */
+        (void)fieldscribe_field(v, "needs"); /* used by languages whose devices read other points themselves */
     }
     while (place > 0U && at != NULL) {
         at = strchr(at, ',');
@@ -1170,7 +1170,7 @@ static inline bool fieldscribe_step(fieldscribe_vector *v, size_t place, const c
     return true;
 }
 
-/* How many steps a script has. */
+/* The number of steps of a script. */
 FIELDSCRIBE_ONCE size_t fieldscribe_steps(fieldscribe_vector *v)
 {
     const char *at = fieldscribe_field(v, "script");
@@ -1183,7 +1183,7 @@ FIELDSCRIBE_ONCE size_t fieldscribe_steps(fieldscribe_vector *v)
 }
 
 /*
- * A point in one call: what its frames and its codec do. `decode` stores what `raw` means in `number`, `encode` what
+ * A point in one call: its frames and its codec. `decode` stores what `raw` means in `number`, `encode` what
  * that is written as in `again`; each gives a status. A number is written if it stands for that raw number alone.
  */
 #define FIELDSCRIBE_CALL_READ_BY(device_type, call, type, raw_type, with, decode)                \
@@ -1220,7 +1220,7 @@ FIELDSCRIBE_ONCE size_t fieldscribe_steps(fieldscribe_vector *v)
         }                                                                                        \
     }
 
-/* The same of a point that needs no other: the number is the raw number, or its decoding or count, which may fail. */
+/* The same for a point that needs no other: the number is the raw number, or its decoding or count, which may fail. */
 #define FIELDSCRIBE_CALL_READ(device, item, type, raw_type, means)                               \
     FIELDSCRIBE_CALL_READ_BY(device##_device, device##_read_##item, type, raw_type, ,            \
         FIELDSCRIBE_DECODE_##means(device##_##item, type))
@@ -1287,7 +1287,7 @@ FIELDSCRIBE_ONCE size_t fieldscribe_steps(fieldscribe_vector *v)
     FIELDSCRIBE_MEMBER(                                                                          \
         #item, group.item##_count == device##_##item##_decode_count((raw_type)fieldscribe_bits(v, "raw")))
 
-/* Whether bytes are those of the step that are to be sent. */
+/* Whether these bytes are the ones that the step sends. */
 static inline void fieldscribe_sends(fieldscribe_vector *v, const char *sent, const uint8_t *bytes, size_t length)
 {
     uint8_t expected[FIELDSCRIBE_BYTES_MOST] = {0U};
@@ -1296,7 +1296,7 @@ static inline void fieldscribe_sends(fieldscribe_vector *v, const char *sent, co
 }
 
 
-/* Which of the addresses, counted upwards from the lowest, is the one at that place. */
+/* The rank of the address at this position, counted from the lowest. */
 FIELDSCRIBE_ONCE size_t fieldscribe_rank(const uint16_t *addresses, size_t count, size_t at)
 {
     size_t rank = 0U;
@@ -1396,7 +1396,7 @@ static bool fieldscribe_declare(
     return true;
 }
 
-/* Whether the suite's text and numbers say that version. */
+/* Whether the version of the suite, as text and as numbers, is this one. */
 static bool fieldscribe_has_version(const fieldscribe_suite *suite, const char *version)
 {
     char numbers[64];
@@ -1405,7 +1405,7 @@ static bool fieldscribe_has_version(const fieldscribe_suite *suite, const char *
         suite->number == suite->major * 1000000UL + suite->minor * 1000UL + suite->patch;
 }
 
-/* Takes a line of the head; false when it is none. */
+/* Reads a line of the head; false if it is none. */
 static bool fieldscribe_take_head(fieldscribe_file *file, char *text)
 {
     char *parts[FIELDSCRIBE_FIELDS_MOST + 3];
@@ -1429,7 +1429,7 @@ static bool fieldscribe_take_head(fieldscribe_file *file, char *text)
     return true;
 }
 
-/* Takes the line apart by its kind among these; false when it is of none of them. */
+/* Splits the line by its kind; false if it has none of these kinds. */
 static bool fieldscribe_take_apart(fieldscribe_line *line, const char *text, fieldscribe_kind *kinds, size_t count)
 {
     char *parts[FIELDSCRIBE_FIELDS_MOST + 1];
@@ -1451,7 +1451,7 @@ static bool fieldscribe_take_apart(fieldscribe_line *line, const char *text, fie
     return true;
 }
 
-/* What the lines below share: it ends the sets that the head names behind it. */
+/* Starts a set that the lines below share, and ends the sets that the head names after it. */
 static bool fieldscribe_take_set(fieldscribe_file *file, const char *text)
 {
     static fieldscribe_line line;
@@ -1479,7 +1479,7 @@ static bool fieldscribe_skips(const fieldscribe_vector *v)
 #endif
 }
 
-/* Every field that is there must have been held against something. */
+/* Checks that every field of the line was compared with something. */
 static bool fieldscribe_passes(const fieldscribe_vector *v)
 {
     size_t at;
@@ -1547,7 +1547,7 @@ static int fieldscribe_report(const fieldscribe_file *file)
     return failed == 0U && passed > 0U ? 0 : 1;
 }
 
-/* Whether as many vectors of each kind came as the head announced. */
+/* Whether there were as many vectors of each kind as the head says. */
 static bool fieldscribe_complete(const fieldscribe_file *file)
 {
     size_t at;

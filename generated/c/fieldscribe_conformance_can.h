@@ -24,7 +24,7 @@ typedef struct fieldscribe_named_telegram {
     const fieldscribe_can_telegram *telegram;
 } fieldscribe_named_telegram;
 
-/* What holds the struct of a telegram, or of a message of signals, against the frames of a vector. */
+/* A function that compares the struct of a telegram, or of a message of signals, with the frames of a vector. */
 typedef struct fieldscribe_named_values {
     const char *name;
     void (*hold)(fieldscribe_vector *v);
@@ -64,7 +64,7 @@ static inline void fieldscribe_sends_frame(fieldscribe_vector *v, const char *se
         memcmp(expected.data, frame->data, sizeof expected.data) == 0);
 }
 
-/* What is no answer is a time-out for a device, which waits on. */
+/* For a device, a frame that is no answer is a time-out, as it keeps waiting. */
 static inline void fieldscribe_is_answer(fieldscribe_vector *v, fieldscribe_can_status status)
 {
     const bool answers = status == FIELDSCRIBE_CAN_OK || status == FIELDSCRIBE_CAN_ECHO_MISMATCH;
@@ -87,7 +87,7 @@ static inline void fieldscribe_refuses_others(
     fieldscribe_agree(v, other == 0x5A5AU);
 }
 
-/* Asks for a parameter as the script does at that place; whether its word came. */
+/* Reads a parameter as in this step of the script; returns whether its word came. */
 FIELDSCRIBE_ONCE bool fieldscribe_asks_for(
     fieldscribe_vector *v, size_t place, const fieldscribe_can_reading *what, uint16_t *word)
 {
@@ -115,7 +115,7 @@ FIELDSCRIBE_ONCE bool fieldscribe_asks_for(
     return false;
 }
 
-/* Writes a word as the script does at that place. */
+/* Writes a word as in this step of the script. */
 FIELDSCRIBE_ONCE void fieldscribe_writes_to(
     fieldscribe_vector *v, size_t place, const fieldscribe_can_writing *what, const uint16_t *word)
 {
@@ -149,7 +149,7 @@ FIELDSCRIBE_ONCE void fieldscribe_writes_to(
         fieldscribe_writes_to(v, 0U, &(frame).write, &word);                                     \
     }
 
-/* A group of bits: its word is read, and goes back with other bits. */
+/* A group of bits: its word is read, and written back with other bits. */
 #define FIELDSCRIBE_WRITE_SHARED(frame, kind, raw_type)                                          \
     if (fieldscribe_asks(v, "write")) {                                                          \
         uint16_t word;                                                                           \
@@ -212,7 +212,7 @@ FIELDSCRIBE_ONCE fieldscribe_can_frame fieldscribe_read_frame(uint64_t id, const
     return frame;
 }
 
-/* Reads the next frame of the field `frames`, as `801=0102,802=03`; false behind the last. */
+/* Reads the next frame of the field `frames`, such as `801=0102,802=03`; false after the last. */
 FIELDSCRIBE_ONCE bool fieldscribe_next_frame(const char **at, fieldscribe_can_frame *frame)
 {
     const char *data;
@@ -226,7 +226,7 @@ FIELDSCRIBE_ONCE bool fieldscribe_next_frame(const char **at, fieldscribe_can_fr
     return true;
 }
 
-/* The frames of what was received came at times from 0 on; a clock that runs over is no matter. */
+/* The received frames came at times from 0 on; a clock may wrap around. */
 FIELDSCRIBE_ONCE void fieldscribe_ages(fieldscribe_vector *v, const fieldscribe_can_heard *what)
 {
     const fieldscribe_can_receiver *const receiver = (const fieldscribe_can_receiver *)v->receiver;
@@ -239,7 +239,7 @@ FIELDSCRIBE_ONCE void fieldscribe_ages(fieldscribe_vector *v, const fieldscribe_
         1000U - age == receiver->slots[what->high / receiver->telegram->per_frame].time_now);
 }
 
-/* A point of a telegram, out of what was received. */
+/* A point of a telegram, from the received frames. */
 #define FIELDSCRIBE_RECEIVED(frame, kind, raw_type)                                              \
     if (fieldscribe_asks(v, "can_telegram")) {                                                   \
         uint16_t words[3];                                                                       \
@@ -274,7 +274,7 @@ static inline const fieldscribe_can_signals *fieldscribe_find_signals(fieldscrib
 /* Room for all words of a message of signals, and one more. */
 #define FIELDSCRIBE_SIGNAL_WORDS 513U
 
-/* Takes the words of the frame of a line; the status is that of the signal of that word. */
+/* Extracts the words of the frame of a line; returns the status for the signal of this word. */
 FIELDSCRIBE_ONCE fieldscribe_can_status fieldscribe_takes_signals(
     fieldscribe_vector *v, uint16_t word, uint16_t words[FIELDSCRIBE_SIGNAL_WORDS])
 {
@@ -336,7 +336,7 @@ FIELDSCRIBE_ONCE void fieldscribe_puts_signals(fieldscribe_vector *v, uint16_t w
         FIELDSCRIBE_CAN_BUFFER_TOO_SMALL);
 }
 
-/* A signal of a message, out of a frame and into one. */
+/* A signal of a message, extracted from a frame and inserted into one. */
 #define FIELDSCRIBE_SIGNAL(frame, kind, raw_type)                                                \
     if (fieldscribe_asks(v, "can_signal")) {                                                     \
         uint16_t words[FIELDSCRIBE_SIGNAL_WORDS];                                                \
@@ -381,7 +381,7 @@ static const fieldscribe_can_message *fieldscribe_find_message(fieldscribe_vecto
     return one->message;
 }
 
-/* A byte that a message fills otherwise than from its content is 0 until then. */
+/* Bytes that do not come from the content of a message are still 0. */
 static void fieldscribe_leaves_others(
     fieldscribe_vector *v, const fieldscribe_can_message *message, const fieldscribe_can_content *content)
 {
@@ -436,7 +436,7 @@ static void fieldscribe_run_can_parse(fieldscribe_vector *v)
     }
 }
 
-/* Slots in a caller's memory, with one behind them that is not theirs. */
+/* Slots in a caller's memory, followed by one that is not theirs. */
 typedef struct fieldscribe_slots {
     fieldscribe_can_slot all[257];
 } fieldscribe_slots;
@@ -448,7 +448,7 @@ static inline bool fieldscribe_hears_nothing(const fieldscribe_can_receiver *rec
     return fieldscribe_can_word(receiver, 0U, &word) == FIELDSCRIBE_CAN_MISSING && word == 0x5A5AU;
 }
 
-/* To a unit that a device cannot have nothing belongs, whatever comes; and without enough slots. */
+/* A receiver takes no frame for an impossible unit, and none without enough slots. */
 static void fieldscribe_has_no_such_unit(
     fieldscribe_vector *v, const fieldscribe_can_receiver *receiver, const fieldscribe_can_frame *frame)
 {
@@ -469,7 +469,7 @@ static void fieldscribe_has_no_such_unit(
     }
 }
 
-/* The byte that tells which frame it is may be any, also the first: those two bytes change places. */
+/* Any byte may hold the number of the frame: it is exchanged with the first one. */
 static void fieldscribe_finds_the_frame(
     fieldscribe_vector *v, const fieldscribe_can_receiver *receiver, const fieldscribe_can_frame *frame)
 {
@@ -516,7 +516,7 @@ static void fieldscribe_feed(fieldscribe_vector *v, fieldscribe_can_receiver *re
     fieldscribe_agree(v, fed == count && memcmp(taken, expected_taken, fed * sizeof taken[0]) == 0);
 }
 
-/* The telegram of the line with a receiver that has heard nothing; NULL when there is none. */
+/* The telegram of the line, with a receiver that has received nothing; NULL if there is none. */
 static const fieldscribe_named_telegram *fieldscribe_listen(
     fieldscribe_vector *v, fieldscribe_slots *slots, fieldscribe_can_receiver *receiver)
 {
@@ -533,7 +533,7 @@ static const fieldscribe_named_telegram *fieldscribe_listen(
     return one;
 }
 
-/* Nothing was stored behind the slots, and a table of nonsense counts as the most words in a frame. */
+/* Checks that nothing was stored after the slots, and that a wrong table counts as the most words in a frame. */
 static void fieldscribe_stays_inside(
     fieldscribe_vector *v, const fieldscribe_slots *slots, const fieldscribe_can_telegram *telegram)
 {

@@ -28,7 +28,7 @@ static fieldscribe_uss_link fieldscribe_read_link(fieldscribe_vector *v)
     return link;
 }
 
-/* Memory for a reply with room for so many words of process data. */
+/* Memory for a reply with this many words of process data. */
 static inline fieldscribe_uss_reply fieldscribe_reply_into(uint16_t *process, size_t room)
 {
     fieldscribe_uss_reply reply;
@@ -38,7 +38,7 @@ static inline fieldscribe_uss_reply fieldscribe_reply_into(uint16_t *process, si
     return reply;
 }
 
-/* A receiver that asks before each byte how many are left knows at the last one, and not before, that it is. */
+/* A receiver that asks before each byte how many are missing learns at the last byte, not before, that it is. */
 static inline void fieldscribe_receives(
     fieldscribe_vector *v, const fieldscribe_uss_link *link, const uint8_t *bytes, size_t length)
 {
@@ -77,7 +77,7 @@ FIELDSCRIBE_ONCE fieldscribe_uss_status fieldscribe_ask(fieldscribe_vector *v, s
     return status;
 }
 
-/* The same with words that are sent and replaced by those that come back; whether it is an answer. */
+/* The same with words that are sent and replaced by those of the answer; returns whether there is one. */
 FIELDSCRIBE_ONCE bool fieldscribe_exchange(fieldscribe_vector *v, size_t place, const fieldscribe_uss_request *request,
     uint16_t *words, fieldscribe_uss_reply *reply)
 {
@@ -115,7 +115,7 @@ FIELDSCRIBE_ONCE fieldscribe_uss_unit fieldscribe_called_unit(fieldscribe_vector
     return unit;
 }
 
-/* A call does the whole script, and says what its exchange or its conversion says. */
+/* Checks that a call does the whole script and returns the status of its exchange or conversion. */
 FIELDSCRIBE_ONCE void fieldscribe_is_called(
     fieldscribe_vector *v, const fieldscribe_uss_unit *unit, int status, int converted)
 {
@@ -126,7 +126,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_called(
     fieldscribe_agree(v, unit->error != 0x7FU && (unit->error == 0U || exchanged == FIELDSCRIBE_USS_REFUSED));
 }
 
-/* The words of a value; a value of another width, and of none, brings none. */
+/* The words of a value; none for a value of another width. */
 FIELDSCRIBE_ONCE void fieldscribe_is_value(fieldscribe_vector *v, const fieldscribe_uss_reply *reply,
     const fieldscribe_uss_reading *what, uint16_t *words)
 {
@@ -174,7 +174,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_value(fieldscribe_vector *v, const fieldscr
         (void)fieldscribe_exchange(v, 0U, &request, words, &reply);                              \
     }
 
-/* A group of bits: its word is read, and goes back with other bits. */
+/* A group of bits: its word is read, and written back with other bits. */
 #define FIELDSCRIBE_UPDATE(what, reading, frame, kind, raw_type)                                 \
     if (fieldscribe_asks(v, what)) {                                                             \
         uint16_t words[256] = {0U};                                                              \
@@ -190,7 +190,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_value(fieldscribe_vector *v, const fieldscr
         }                                                                                        \
     }
 
-/* A word of process data that is sent, or comes back, without a task. */
+/* A word of process data that is sent or received without a task. */
 #define FIELDSCRIBE_SEND(frame, kind, raw_type)                                                  \
     if (fieldscribe_asks(v, "write")) {                                                          \
         uint16_t words[256] = {0U};                                                              \
@@ -201,7 +201,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_value(fieldscribe_vector *v, const fieldscr
         (void)fieldscribe_exchange(v, 0U, &request, words, &reply);                              \
     }
 
-/* The same without a telegram: a word or two at their place, and the others as they were. */
+/* The same without a telegram: one or two words at their place; the others are unchanged. */
 #define FIELDSCRIBE_PUT(frame, kind, raw_type, macro, count)                                     \
     if (fieldscribe_asks(v, "words") || fieldscribe_asks(v, "bits")) {                           \
         const bool part = fieldscribe_asks(v, "bits");                                           \
@@ -262,7 +262,7 @@ static fieldscribe_uss_request fieldscribe_read_task(fieldscribe_vector *v)
     return request;
 }
 
-/* The telegram of the line in `built`, and nothing behind it. */
+/* The telegram of the line in `built`, with nothing after it. */
 static void fieldscribe_is_telegram(
     fieldscribe_vector *v, fieldscribe_uss_status status, const uint8_t *built, size_t size, size_t length)
 {
@@ -323,7 +323,7 @@ static void fieldscribe_run_uss_broadcast(fieldscribe_vector *v)
     fieldscribe_is_telegram(v, status, built, sizeof built, length);
 }
 
-/* Process data comes with every good telegram, also with one that brings no value; else nothing is stored. */
+/* Process data comes with every valid telegram, also with one without a value; otherwise nothing is stored. */
 static void fieldscribe_are_heard(fieldscribe_vector *v, fieldscribe_uss_status status, const uint16_t *words,
     const uint8_t *bytes, size_t length, size_t count)
 {
@@ -336,7 +336,7 @@ static void fieldscribe_are_heard(fieldscribe_vector *v, fieldscribe_uss_status 
     fieldscribe_untouched(v, words + heard, (FIELDSCRIBE_BYTES_MOST - heard) * sizeof words[0]);
 }
 
-/* A receiver finds the answer behind noise, in pieces of any size, and takes no byte behind it. */
+/* A receiver finds the answer after noise, in pieces of any size, and takes no byte after it. */
 static void fieldscribe_finds(fieldscribe_vector *v, const fieldscribe_uss_link *link,
     const fieldscribe_uss_request *request, const uint8_t *bytes, size_t length)
 {
@@ -369,7 +369,7 @@ static void fieldscribe_finds(fieldscribe_vector *v, const fieldscribe_uss_link 
     }
 }
 
-/* No task at all is what exchanges process data alone. */
+/* A telegram without a task exchanges process data only. */
 static inline fieldscribe_uss_status fieldscribe_asks_line(fieldscribe_vector *v, const fieldscribe_uss_link *link,
     const fieldscribe_uss_request *request, fieldscribe_stream *stream, fieldscribe_uss_reply *reply)
 {
@@ -393,7 +393,7 @@ static inline fieldscribe_uss_status fieldscribe_asks_line(fieldscribe_vector *v
     return fieldscribe_uss_ask(&line, request, &process, reply);
 }
 
-/* Asking says what parsing says, whatever comes before the answer; and it ends when none comes. */
+/* Asking returns what parsing does, whatever comes before the answer, and ends if none comes. */
 static void fieldscribe_is_asked(fieldscribe_vector *v, const fieldscribe_uss_link *link,
     const fieldscribe_uss_request *request, const uint8_t *bytes, size_t length, const fieldscribe_uss_reply *parsed)
 {

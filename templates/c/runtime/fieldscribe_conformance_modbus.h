@@ -15,7 +15,7 @@ typedef struct fieldscribe_blocks {
     size_t count;
 } fieldscribe_blocks;
 
-/* Holds the members of a group that come from the words of a reading against the vector. */
+/* Compares the members of a group that come from the words of a reading with the vector. */
 typedef void (*fieldscribe_members)(
     fieldscribe_vector *v, const fieldscribe_modbus_reading *what, const uint16_t *words);
 
@@ -44,7 +44,7 @@ static inline fieldscribe_modbus_request fieldscribe_request_of(uint8_t function
     return fieldscribe_modbus_read(1U, &block);
 }
 
-/* A point is found in a block that reaches beyond it, and in none that ends or begins within it, or has other items. */
+/* Checks that a point is found in a block that contains it, and in none that cuts it or has other items. */
 FIELDSCRIBE_ONCE bool fieldscribe_is_in_blocks(const fieldscribe_modbus_reading *point)
 {
     uint16_t values[FIELDSCRIBE_ROOM];
@@ -68,7 +68,7 @@ FIELDSCRIBE_ONCE bool fieldscribe_is_in_blocks(const fieldscribe_modbus_reading 
         fieldscribe_modbus_words_in(&other, &whole, point) == NULL;
 }
 
-/* Memory for a reply of that room. */
+/* Memory for a reply of this size. */
 static inline fieldscribe_modbus_reply fieldscribe_reply_into(uint16_t *values, size_t room)
 {
     fieldscribe_modbus_reply reply;
@@ -79,7 +79,7 @@ static inline fieldscribe_modbus_reply fieldscribe_reply_into(uint16_t *values, 
 }
 
 /*
- * A receiver that asks before each byte how many are left knows at the last one, and not before, that it is. It is
+ * A receiver that asks before each byte how many are missing learns at the last byte that it is the last. It is
  * never told more than fit, and nothing where nobody answers.
  */
 static inline void fieldscribe_receives(fieldscribe_vector *v, fieldscribe_modbus_framing framing,
@@ -99,7 +99,7 @@ static inline void fieldscribe_receives(fieldscribe_vector *v, fieldscribe_modbu
     }
 }
 
-/* An answer is as long as the request says, but a refusal; and a receiver is told so while it comes. */
+/* An answer that is no refusal is as long as the request says, and a receiver learns so while it comes. */
 static inline void fieldscribe_is_awaited(fieldscribe_vector *v, fieldscribe_modbus_framing framing,
     const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, fieldscribe_modbus_status status)
 {
@@ -133,14 +133,14 @@ FIELDSCRIBE_ONCE fieldscribe_modbus_status fieldscribe_ask_any(
         fieldscribe_modbus_build(fieldscribe_tables_of(v)->profile, framing, &numbered, bytes, sizeof bytes, &length);
     fieldscribe_agree(v, status == FIELDSCRIBE_MODBUS_OK);
     fieldscribe_sends(v, sent, bytes, length);
-    numbered.values = NULL; /* an answer is held against the request alone */
+    numbered.values = NULL; /* an answer is compared with the request alone */
     length = fieldscribe_hex(received, bytes, sizeof bytes);
     status = fieldscribe_modbus_parse(framing, &numbered, bytes, length, reply);
     fieldscribe_is_awaited(v, framing, &numbered, bytes, length, status);
     return status;
 }
 
-/* The same, and the status is that of the vector. */
+/* The same, with the status of the vector. */
 FIELDSCRIBE_ONCE fieldscribe_modbus_status fieldscribe_ask(
     fieldscribe_vector *v, size_t place, const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply)
 {
@@ -149,7 +149,7 @@ FIELDSCRIBE_ONCE fieldscribe_modbus_status fieldscribe_ask(
     return status;
 }
 
-/* Sends a request of the script and reads what comes back into `words`; whether that was an answer. */
+/* Sends a request of the script and reads the reply into `words`; returns whether it was an answer. */
 FIELDSCRIBE_ONCE bool fieldscribe_exchange(
     fieldscribe_vector *v, size_t place, const fieldscribe_modbus_request *request, uint16_t *words)
 {
@@ -181,7 +181,7 @@ FIELDSCRIBE_ONCE fieldscribe_modbus_unit fieldscribe_called_unit(fieldscribe_vec
     return unit;
 }
 
-/* The steps of the script that select the point; what stands is not written again. */
+/* The steps of the script that select the point; a selection that stands is not written again. */
 #define FIELDSCRIBE_SELECTED(selection)                                                          \
     if (fieldscribe_asks(v, "read") || fieldscribe_asks(v, "write")) {                           \
         fieldscribe_modbus_selected selected = FIELDSCRIBE_MODBUS_NOTHING_SELECTED;              \
@@ -192,14 +192,14 @@ FIELDSCRIBE_ONCE fieldscribe_modbus_unit fieldscribe_called_unit(fieldscribe_vec
         fieldscribe_agree(v, v->selecting == fieldscribe_done && selected.rows == (selection));  \
     }
 
-/* Of a point that the header cannot select: no function does what the line asks. */
+/* For a point that C cannot select: no function does what the line asks. */
 #define FIELDSCRIBE_NO_FUNCTION                                                                  \
     if (fieldscribe_asks(v, "read") || fieldscribe_asks(v, "write")) {                           \
         memset(v->own.used, true, sizeof v->own.used);                                           \
         v->answered = true;                                                                      \
     }
 
-/* A call does the whole script, says what its exchange or its conversion says, and whether an answer is still due. */
+/* Checks that a call does the whole script, and returns its status and whether an answer is still due. */
 FIELDSCRIBE_ONCE void fieldscribe_is_called(
     fieldscribe_vector *v, const fieldscribe_modbus_unit *unit, int status, int converted)
 {
@@ -214,7 +214,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_called(
         exchanged == FIELDSCRIBE_MODBUS_ECHO_MISMATCH));
 }
 
-/* Writes words, which nobody looks at any more when the answer comes. */
+/* Writes words, which are overwritten before the answer comes. */
 FIELDSCRIBE_ONCE void fieldscribe_writes(
     fieldscribe_vector *v, size_t place, const fieldscribe_modbus_writing *what, const uint16_t *words, size_t count)
 {
@@ -260,7 +260,7 @@ static inline uint8_t fieldscribe_character(const uint16_t *words, size_t at)
     return (uint8_t)(at % 2U == 0U ? both >> 8 : both & 0xFFU);
 }
 
-/* Whether a text is that of these words, without the spaces at its end. */
+/* Whether a text is the one in these words, without the blanks at its end. */
 FIELDSCRIBE_ONCE bool fieldscribe_is_text_of(const char *text, const uint16_t *words, size_t count)
 {
     size_t length = 2U * count;
@@ -317,7 +317,7 @@ FIELDSCRIBE_ONCE void fieldscribe_fills_groups(
         fieldscribe_agree(v, fieldscribe_absent(fieldscribe_field(v, "base")) == !step->based);  \
     }
 
-/* Where a base is, by the vector. */
+/* The address of a base in the vector. */
 FIELDSCRIBE_ONCE fieldscribe_modbus_base fieldscribe_base_of(fieldscribe_vector *v, const char *name)
 {
     const char *const start = fieldscribe_pair(v, "starts", name);
@@ -333,10 +333,10 @@ FIELDSCRIBE_ONCE fieldscribe_modbus_base fieldscribe_base_of(fieldscribe_vector 
 
 #define FIELDSCRIBE_BASE(name) , fieldscribe_base_of(v, name)
 
-/* A base that follows from given numbers, which is nowhere if one of them cannot be given. */
+/* A base that follows from given numbers; it has no address if one of them is out of range. */
 FIELDSCRIBE_ONCE void fieldscribe_is_base(fieldscribe_vector *v, bool known, fieldscribe_modbus_base base)
 {
-    (void)fieldscribe_field(v, "script"); /* of languages whose devices find bases themselves */
+    (void)fieldscribe_field(v, "script"); /* for languages whose devices find bases themselves */
     if (known) {
         fieldscribe_is_number(v, "start", base.start);
         fieldscribe_is_number(v, "last", base.last);
@@ -391,7 +391,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_found(
         fieldscribe_is_found(v, &(chain), (block));                                              \
     }
 
-/* The frame of a point at its base; nothing is in a base that ends before it. */
+/* The frame of a point at its base; a base that ends before the point has none. */
 #define FIELDSCRIBE_AT_BASE(frame_type, frame, name)                                             \
     frame_type moved = frame;                                                                    \
     fieldscribe_modbus_base at_base = {0U, 0U};                                                  \
@@ -464,7 +464,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_found(
         fieldscribe_writes(v, 0U, &(frame).write, words, total);                                 \
     }
 
-/* A group of bits: its word is read, and goes back with other bits. */
+/* A group of bits: its word is read, and written back with other bits. */
 #define FIELDSCRIBE_UPDATE(frame, kind, raw_type)                                                \
     if (fieldscribe_asks(v, "write")) {                                                          \
         uint16_t words[FIELDSCRIBE_ROOM];                                                        \
@@ -526,7 +526,7 @@ FIELDSCRIBE_ONCE fieldscribe_modbus_status fieldscribe_ask_held(const fieldscrib
     return FIELDSCRIBE_MODBUS_OK;
 }
 
-/* The words of a row and its number, what it is written as in place of them, and a number that does not fit. */
+/* The words of a row with its number, the words of another number, and a number that does not fit. */
 typedef struct fieldscribe_row_case {
     fieldscribe_layout layout;
     int32_t factor;
@@ -649,7 +649,7 @@ FIELDSCRIBE_ONCE fieldscribe_status fieldscribe_is_odd(const uint16_t *words)
     return words[0] % 2U == 1U ? FIELDSCRIBE_OK : FIELDSCRIBE_OUT_OF_RANGE;
 }
 
-/* What a unit with 5 in the words 1, 2 and 5 and 7 in word 3 is found to be, in how many requests. */
+/* Checks as what a unit with 5 in the words 1, 2 and 5 and 7 in word 3 is identified, and in how many requests. */
 typedef struct fieldscribe_identity_case {
     size_t count;
     fieldscribe_modbus_expectation rows[3];
@@ -725,7 +725,7 @@ static size_t fieldscribe_before_pdu(fieldscribe_modbus_framing framing)
     return framing == FIELDSCRIBE_MODBUS_TCP ? 7U : 1U;
 }
 
-/* A buffer of exactly the length does, one that is shorter does not; and what writes needs values. */
+/* A buffer of exactly the length suffices, a shorter one does not; and a write needs values. */
 static void fieldscribe_rebuild(fieldscribe_vector *v, fieldscribe_modbus_framing framing,
     const fieldscribe_modbus_request *request, const uint8_t *expected, size_t length)
 {
@@ -780,7 +780,7 @@ static void fieldscribe_run_build(fieldscribe_vector *v)
     }
 }
 
-/* Room for exactly what came does, less does not; and an echo is held against what was sent, if something was. */
+/* Room for exactly the received values suffices, less does not; an echo is compared with what was sent. */
 static void fieldscribe_reparse(fieldscribe_vector *v, fieldscribe_modbus_framing framing,
     const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length)
 {
@@ -821,7 +821,7 @@ static void fieldscribe_reparse(fieldscribe_vector *v, fieldscribe_modbus_framin
     }
 }
 
-/* A receiver finds the answer behind noise, in pieces of any size, and takes no byte behind it. */
+/* A receiver finds the answer after noise, in pieces of any size, and takes no byte after it. */
 static void fieldscribe_finds(fieldscribe_vector *v, fieldscribe_modbus_framing framing,
     const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length)
 {
@@ -857,7 +857,7 @@ static void fieldscribe_finds(fieldscribe_vector *v, fieldscribe_modbus_framing 
     }
 }
 
-/* In a silent line a refusal is found behind what begins a longer answer. */
+/* After silence, a refusal is found after the start of a longer answer. */
 static void fieldscribe_finds_in_silence(fieldscribe_vector *v, const fieldscribe_modbus_request *request,
     const uint8_t *bytes, size_t length)
 {
@@ -897,7 +897,7 @@ static inline fieldscribe_modbus_status fieldscribe_asks_line(fieldscribe_vector
     return fieldscribe_asks_line_of(v, framing, request, stream, reply, FIELDSCRIBE_BYTES_MOST);
 }
 
-/* Nothing is sent where an answer has no room; what is late is over before a request; to all units nobody answers. */
+/* Nothing is sent if the answer has no room; late bytes are dropped before a request; nobody answers a broadcast. */
 static void fieldscribe_asks_with_care(fieldscribe_vector *v, fieldscribe_modbus_framing framing,
     const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length)
 {
@@ -953,7 +953,7 @@ static void fieldscribe_sends_nothing(fieldscribe_vector *v)
     }
 }
 
-/* Asking says what parsing says, whatever comes before the answer; and it ends when none comes. */
+/* Asking returns what parsing does, whatever comes before the answer, and ends if none comes. */
 static void fieldscribe_is_asked(fieldscribe_vector *v, fieldscribe_modbus_framing framing,
     const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, fieldscribe_modbus_status parsed)
 {
@@ -986,7 +986,7 @@ static void fieldscribe_is_asked(fieldscribe_vector *v, fieldscribe_modbus_frami
     }
     (void)fieldscribe_stream_noise(&stream, 1U, bytes, length, hurt);
     fieldscribe_stream_add(&stream, bytes, length);
-    stream.silence = 1U; /* after noise that is followed by silence, an answer has its time once more */
+    stream.silence = 1U; /* after noise and silence, an answer has its full time again */
     fieldscribe_agree(v, fieldscribe_asks_line(v, framing, request, &stream, &reply) == parsed &&
         stream.patience == FIELDSCRIBE_ANSWER_MS);
     if (parsed == FIELDSCRIBE_MODBUS_OK) {
