@@ -14,7 +14,7 @@ from fieldscribe.conversation.lookup import find
 from fieldscribe.conversation.meanings import quoted_text
 from fieldscribe.families.can.frame_decoder import CanFrameDecoder
 from fieldscribe.families.can.frames import CanFrame, parse
-from fieldscribe.families.can.notation import Pasted, read_frames, read_identifier
+from fieldscribe.families.can.notation import read_frames, read_identifier
 from fieldscribe.families.decoded_frame import DecodedFrame, OpenRequests
 from fieldscribe.families.frame_results import FrameResult, Options
 from fieldscribe.model import Role
@@ -161,7 +161,7 @@ def test_any_frames_are_safe(frames: list[tuple[int, bytes, bytes]]) -> None:
     decoder = StreamDecoder(DEVICE, {}, CanFrameDecoder(DEVICE))
     for number, start, rest in frames:
         for data in (start + rest, (start + rest)[:8]):
-            decoded = decoder.decode(Pasted(CanFrame(number, data)))
+            decoded = decoder.decode(CanFrame(number, data))
             assert decoded.summary
             assert decoded.as_data()
 
@@ -173,9 +173,19 @@ RECOGNISER = CanFrameDecoder(DEVICE)
 class _Forgetful(CanFrameDecoder):
     """Keeps nothing."""
 
-    def decode(self, frame: Pasted, requests: OpenRequests, *, expecting: bool = False) -> DecodedFrame:
+    def decode(self, frame: CanFrame, requests: OpenRequests, *, expecting: bool = False) -> DecodedFrame:
         self._heads.clear()
+        self._last.clear()
         return super().decode(frame, requests, expecting=expecting)._replace(memo=None)
+
+
+def test_more_heads_than_are_remembered() -> None:
+    """31 units with 60 multiplexers, and each a second time: the words are read as the first time."""
+    decoder = StreamDecoder(DEVICE, {}, CanFrameDecoder(DEVICE))
+    frames = [CanFrame(0x320 + unit, bytes((0xDD, slot)) + bytes(6)) for unit in range(31) for slot in range(60)]
+    first, second = ([decoder.decode(frame).summary for frame in frames] for _ in range(2))
+    assert first == second
+    assert len(set(first)) == len(frames)
 
 
 def test_what_is_kept_of_frames_that_come_again_is_what_they_say_now() -> None:
@@ -187,7 +197,7 @@ def test_what_is_kept_of_frames_that_come_again_is_what_they_say_now() -> None:
         for _ in range(60):
             (place,) = random.choices((0, 1, 7, 10, 14, 15), (9, 3, 9, 3, 2, 2))
             data = bytes((0xDD, place, random.randrange(2), 0, 0, 0, 0, random.randrange(2)))
-            frame = Pasted(CanFrame(random.choice((0x321, 0x322)), data))
+            frame = CanFrame(random.choice((0x321, 0x322)), data)
             first = keeping.decode(frame)
             assert first.as_data() == forgetting.decode(frame).as_data()
             again += any(first is kept for kept in seen)

@@ -12,7 +12,13 @@ from fieldscribe.families.frame_results import FrameResult, Item
 from support.models import sample_device
 
 DEVICE = sample_device()
-QUIET = FrameResult(b"", "rtu", "request", 1, None, "texts")
+QUIET = FrameResult("rtu", "request", 1, None, "texts")
+
+
+class Scripted(DecodedFrame):
+    """A frame that is its own meaning."""
+
+    data = b""
 
 
 @dataclass
@@ -21,7 +27,7 @@ class Script:
 
     def frames(self, texts: Sequence[str]) -> Sequence[DecodedFrame]:
         """None: nobody pastes anything here."""
-        return [DecodedFrame(QUIET._replace(summary=text)) for text in texts]
+        return [Scripted(QUIET._replace(summary=text)) for text in texts]
 
     def decode(self, frame: DecodedFrame, requests: OpenRequests, *, expecting: bool = False) -> DecodedFrame:
         """The frame, and what was open before it."""
@@ -37,7 +43,7 @@ def summaries(*frames: DecodedFrame, expected: DecodedFrame | None = None) -> li
     return [decoder.decode(frame).summary for frame in frames]
 
 
-ASKS, ANSWERS = DecodedFrame(QUIET, request="first"), DecodedFrame(QUIET, answers=True)
+ASKS, ANSWERS = Scripted(QUIET, request="first"), Scripted(QUIET, answers=True)
 
 
 @pytest.mark.parametrize(
@@ -58,7 +64,7 @@ def test_which_request_is_open(frames: list[DecodedFrame], expected: DecodedFram
 
 def carrying(*words: int) -> DecodedFrame:
     """The words of one span, the first of them a power factor."""
-    return DecodedFrame(QUIET, (AddressSpan("holding", 0x2002, len(words), words),))
+    return Scripted(QUIET, (AddressSpan("holding", 0x2002, len(words), words),))
 
 
 def test_what_a_frame_carries_is_said_in_its_order() -> None:

@@ -34,7 +34,7 @@ FIRST, SECOND = "321#DD010302000007D0", "321#DD00051E13880064"
 )
 def test_frames_in_one_argument(device: str, text: str, sizes: list[int]) -> None:
     decoded = decode(shipped(device), {}, [text], Options())
-    assert [len(frame.data) for frame in decoded] == sizes
+    assert [len(str(frame.as_data()["bytes"]).split()) for frame in decoded] == sizes
     begins = [1 + sum(sizes[:place]) for place in range(len(sizes))]
     texts = [
         f"these bytes hold {len(sizes)} frames; this is number {n}, from byte {at} on" for n, at in enumerate(begins, 1)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fieldscribe.families.decoded_frame import DecodedFrame, OpenRequests
 from fieldscribe.families.frame_results import FrameResult
 
-HEARD = FrameResult(b"", "rtu", "request", None, None, "")
+HEARD = FrameResult("rtu", "request", None, None, "")
 
 
 def follow(requests: OpenRequests, **said: object) -> None:

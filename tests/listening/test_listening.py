@@ -308,7 +308,7 @@ def test_what_never_comes_again_does_not_fill_the_memory() -> None:
         assert isinstance(rows, list)
         assert len(rows) <= 2001
     assert sum(poll["count"] for poll in data["polls"]) == count  # type: ignore[attr-defined]  # it is a list of rows
-    assert len(listener._requests) <= 1024
+    assert listener._requests.cache_info().currsize <= 1024
 
 
 @pytest.mark.full(seconds=0.7)

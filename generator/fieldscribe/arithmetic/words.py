@@ -109,17 +109,15 @@ def reader_of(point: Point, places: Sequence[int] = ()) -> Callable[[Sequence[in
     """
     places = places or range(point.words)
     first, second = places[0], places[-1]
-    plain = point.text is None and not (point.coding or point.swapped)
-    if plain and point.bits is not None and point.words == 1 and not point.info.signed:
-        low, mask = point.bits[1], mask_of(point.width)
-        return lambda words: words[first] >> low & mask
-    plain = plain and point.bits is None
-    if not plain or point.width != 16 * point.words or point.words not in (1, 2):
+    low, mask = point.bits[1] if point.bits else 0, mask_of(point.width)
+    top = 1 << point.width - 1 if point.info.signed else 0
+    if point.text is not None or point.coding or point.swapped or point.words not in (1, 2):
         return lambda words: raw_of(point, [words[place] for place in places])
-    if point.words == 1:
-        return (lambda words: (words[first] ^ 0x8000) - 0x8000) if point.info.signed else itemgetter(first)
-    top = 0x80000000 if point.info.signed else 0
-    return lambda words: ((words[first] << 16 | words[second]) ^ top) - top
+    if point.words == 2:
+        return lambda words: ((words[first] << 16 | words[second]) >> low & mask ^ top) - top
+    if top:
+        return lambda words: (words[first] >> low & mask ^ top) - top
+    return itemgetter(first) if mask == 0xFFFF else lambda words: words[first] >> low & mask
 
 
 def pattern_of(point: Point, raw: int) -> int:

@@ -170,7 +170,8 @@ class _Printer:
 
     def frame(self, result: FrameResult) -> None:
         """Print the next frame."""
-        heading = spaced(result.data) if result.captured is None else visible(result.captured.text)
+        frame = result.frame
+        heading = spaced(frame) if isinstance(frame, bytes) else visible(frame.text)
         if self._coloured:
             sys.stdout.write(self._separator)
             print_rows(heading, _rows(result), width=self._width)

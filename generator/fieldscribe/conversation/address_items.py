@@ -1,19 +1,20 @@
 """Items for the contents of a frame: consecutive addresses, elements and words of parameters."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
 
 from fieldscribe.arithmetic.words import raw_of, reader_of, split
 from fieldscribe.conversation.decode_state import (
     PARAMETER,
-    Base,
     DecodeState,
-    PointFormatter,
+    Plan,
     PointPlace,
+    Read,
+    Step,
     named_item,
     without_variants,
 )
+from fieldscribe.conversation.point_items import Base
 from fieldscribe.conversation.selection import absence, base_options
 from fieldscribe.families import family
 from fieldscribe.families.decoded_frame import AddressSpan, Element, Word
@@ -24,8 +25,6 @@ from fieldscribe.wording import address_text, fixed_text, title_text
 from fieldscribe.wording.exact import hex_text
 from fieldscribe.wording.frames import element_text, hex_words, span_text, word_text
 
-_MOST_PLANS = 1024
-"""The number of spans whose plan of items is kept."""
 _MOST_WORDS = 16
 """The most words without a point that are printed."""
 
@@ -51,60 +50,42 @@ def span_items(state: DecodeState, span: AddressSpan) -> list[Item]:
     return items + here.unknown_items(unknown)
 
 
-class _Step(NamedTuple):
-    """One step of making items: a whole point, or `at`, an address or several without a point."""
-
-    formatter: PointFormatter | None
-    read: Callable[[Sequence[int]], int]
-    places: tuple[int, ...]
-    at: tuple[int, ...] = ()
-
-
 def _items_read(state: DecodeState, span: AddressSpan) -> list[Item]:
     """Return the items of a span whose values came from the device; the plan for its addresses is made once."""
-    plans, key = state.directory.plans, ((span.space, span.address, 0), span.count)
-    if key not in plans:
-        if len(plans) >= _MOST_PLANS:
-            plans.clear()
-        plans[key] = _plan(state, span)
-    taught, steps = plans[key]
-    words, here = span.words or (), None
-    if taught:
-        state.learn([(point, read([words[place] for place in places])) for point, read, places in taught])
-    settings, items = state.settings, []
-    for formatter, read, places, at in steps:
-        if formatter is not None:
-            items.append(formatter.item(read([words[place] for place in places]), settings))
+    place = span.space, span.address, span.count
+    plan = state.plans.get(place) or state.planned(place, _plan(state, span))
+    words, here, items = span.words or (), None, list[Item]()
+    plan.teach(state, words)
+    for make, (_, read, at) in plan.in_force(state):
+        if make is not None:
+            items.append(make(read(words)))
         else:
             here = here or _SpanItems(state, span, taught=False)
             items += (here.items_at(at[0]) if len(at) == 1 else None) or here.unknown_items(at)
     return items
 
 
-def _plan(state: DecodeState, span: AddressSpan) -> tuple[list[tuple[Point, Any, tuple[int, ...]]], list[_Step]]:
-    """Return the plan of a span: its points that are settings for others, and the steps to its items."""
+def _plan(state: DecodeState, span: AddressSpan) -> Plan:
+    """Return the plan of a span; a step without a formatter has one address or several without a point."""
     here, directory = _SpanItems(state, span, taught=False), state.directory
-    taught, steps, unknown = [], list[_Step](), list[int]()
+    taught, steps, unknown = list[tuple[Point, Read]](), list[Step](), list[int]()
     for at in here.addresses:
         places = directory.places(span.space, at)
         if unknown and places:
-            steps.append(_Step(None, len, (), tuple(unknown)))
+            steps.append((None, len, tuple(unknown)))
             unknown.clear()
         if not places:
             unknown.append(at)
         beginning = [(point, place) for point, place in places if at == here.inside(place)[0]]
-        for point, place in beginning:
-            offsets = tuple(address - span.address for address in place.addresses)
-            if here.is_whole(point, place) and directory.teaches(point):
-                taught.append((point, reader_of(point), offsets))
-        if all(here.is_whole(point, place) for point, place in beginning):
-            for point, place in beginning:
-                base = (span.space, here.inside(place)[0], len(place.addresses))
-                offsets = tuple(address - span.address for address in place.addresses)
-                steps.append(_Step(state.formatter(point, base), reader_of(point), offsets))
-        elif beginning:
-            steps.append(_Step(None, len, (), (at,)))
-    return taught, steps + ([_Step(None, len, (), tuple(unknown))] if unknown else [])
+        whole = [(point, place) for point, place in beginning if here.is_whole(point, place)]
+        reads = [reader_of(point, [address - span.address for address in place.addresses]) for point, place in whole]
+        taught += [(point, read) for (point, _), read in zip(whole, reads, strict=True) if directory.teaches(point)]
+        if len(whole) < len(beginning):
+            steps.append((None, len, (at,)))
+            continue
+        for (point, place), read in zip(whole, reads, strict=True):
+            steps.append((state.formatter(point, (span.space, at, len(place.addresses))), read, ()))
+    return Plan(taught, steps + ([(None, len, tuple(unknown))] if unknown else []))
 
 
 class _SpanItems:

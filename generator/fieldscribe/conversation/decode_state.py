@@ -1,127 +1,24 @@
-"""The state of decoding: the addresses of points, their items with texts, and the numbers of frames so far."""
+"""The state of decoding: the addresses of points, their texts, and the numbers of frames so far."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import lru_cache, partial
+from functools import partial
 from typing import Any
 
-from fieldscribe.arithmetic.codec import Settings, setting_of
+from fieldscribe.arithmetic.codec import setting_of
 from fieldscribe.conditions import absent
-from fieldscribe.conversation.meanings import Doubts, Meanings, raw_form
-from fieldscribe.conversation.refusals import written_remarks
-from fieldscribe.conversation.selection import absence, moved, same_meaning
+from fieldscribe.conversation.point_items import Base, PointFormatter, PointItem, english_title
+from fieldscribe.conversation.selection import moved, same_meaning
 from fieldscribe.families import family
 from fieldscribe.families.decoded_frame import AddressSpan
 from fieldscribe.families.frame_results import Item
 from fieldscribe.grouping import grouped
 from fieldscribe.model import Device, Found, Place, Point
 from fieldscribe.text import line
-from fieldscribe.wording import label, title_text
-
-Base = tuple[str, int, int]
-"""Space or telegram, address, and number of addresses of an item."""
-
-_MOST_ITEMS = 64
-"""How many items of one point are cached: a stream may last for days."""
-
-
-class PointFormatter:
-    """Turns the raw numbers of one point into items; on a bus most numbers come again, so items are cached."""
-
-    def __init__(
-        self,
-        device: Device,
-        point: Point,
-        base: Base,
-        *,
-        written: bool,
-        neighbours: Callable[[int], Iterable[Point]] | None = None,
-    ) -> None:
-        """With `neighbours`, the points that begin at an address, each item says whether its number is in range."""
-        self.device, self.point, self.base, self.written = device, point, base, written
-        doubting = neighbours is not None and point.text is None and point.generated
-        self.doubts = Doubts(device, point, neighbours) if neighbours is not None and doubting else None
-        self.needs = point.arguments if written or neighbours is not None else point.scale_arguments
-        self.head, self.title = f"{label(point)} = ", english_title(point)
-        self.code, self.stays = point.code, not self.needs
-        self.name, self.raw_text, self.is_text = point.item, raw_form(point), point.text is not None
-        self.absent = absence(device, point) if written else ""
-        self.meanings = Meanings(device, point)
-        # typed: a special code equals the plain number, and is no quantity
-        self._cached_item = lru_cache(_MOST_ITEMS, typed=True)(partial(PointItem, self))
-
-    def item(self, raw: int, settings: Settings) -> PointItem:
-        """Return the point with the meaning of its raw number; if it is written, also why the device refuses it."""
-        if not self.needs:
-            return self._cached_item(raw)
-        return self._cached_item(raw, *[settings.get(name) for name in self.needs])
-
-    def lacks(self, settings: Settings) -> bool:
-        """Return True if the scale needs numbers of other points that are not among these."""
-        return self.meanings.lacks(settings)
-
-    def value(self, raw: int, settings: Settings) -> str:
-        """Return the meaning of a raw number, and the number itself: `5 Hz (raw 500 = 01F4h)`."""
-        return f"{self.meanings.text(raw, settings)} ({self.raw_text(raw)})"
-
-
-class PointItem(Item):
-    """A point with its raw number and its meaning. Summary and doubts wait until somebody asks: many users do not."""
-
-    __slots__ = ("_formatter", "_hint", "_number", "_remark", "_settings")
-
-    def __init__(self, formatter: PointFormatter, number: int, *values: int | Fraction | None) -> None:
-        """`values` are the settings that the formatter needs, in its order."""
-        settings: dict[str, int | Fraction] = {}
-        if values:
-            settings = {name: value for name, value in zip(formatter.needs, values, strict=True) if value is not None}
-        self._formatter, self._number, self._settings = formatter, number, settings
-        self.space, self.address, self.count = formatter.base
-        self.point, self.code, self.stays = formatter.name, formatter.code, formatter.stays
-        self.raw = None if formatter.is_text else number
-        meaning = formatter.meanings.of(number, settings)
-        self.meaning, self.value, self.missing, self._hint, self.bit_texts = meaning
-        self.carries = self.subject = self._remark = ""
-        self.findings: tuple[str, ...] = ()
-        if formatter.written:
-            finding, unchecked = formatter.absent, ""
-            if not finding:
-                finding, unchecked = written_remarks(formatter.device, formatter.point, number, settings)
-            self.findings, self._remark = (finding,) if finding else (), finding or unchecked
-        if formatter.doubts is None:
-            self.doubts = ()
-
-    def __getattr__(self, name: str) -> Any:
-        """Make the summary or the doubts, once."""
-        if name == "summary":
-            self.summary = self._summarised()
-            return self.summary
-        if name == "doubts":
-            self.doubts = self._doubted()
-            return self.doubts
-        raise AttributeError(name)
-
-    def _summarised(self) -> str:
-        form, remark, hint = self._formatter, self._remark, self._hint
-        number, rest = form.raw_text(self._number), form.title
-        if remark or hint or not rest:
-            rest = "; ".join(text for text in (form.title, remark, hint) if text)
-        text = f"{number}: {rest}" if self.bit_texts else f"{self.meaning} ({number}): {rest}"
-        return line(form.head + text)
-
-    def _doubted(self) -> tuple[str, ...]:
-        doubts = self._formatter.doubts
-        if doubts is None or doubts.fits(self._number, self._settings):
-            return ()
-        return doubts.of(self._number, self._settings, self.meaning)[1 if self.findings else 0 :]
-
-
-def english_title(point: Point) -> str:
-    """Return the English title."""
-    return title_text({"en": point.title["en"]})
+from fieldscribe.wording import label
 
 
 class FoundBlocks:
@@ -207,8 +104,6 @@ class Directory:
         self._settings = {name for name in rules if len(places.get(name, ())) == 1}
         named = ((point.telegram or "", point) for point in device.points if point.addresses)
         self._firsts = {(telegram, point.name): point.addresses[0] for telegram, point in named}
-        self.plans: dict[tuple[Where, int], Any] = {}
-        """The plans for items of whole spans and pieces, filled by `address_items` and `telegram_items`."""
         self._derived = grouped((name, point) for point in device.points for name in point.changes_with)
 
     def places(self, where: str, address: int, index: int = 0) -> list[PointPlace]:
@@ -238,15 +133,43 @@ class Directory:
         """Return the points whose values change when the named point is written."""
         return self._derived.get(name, [])
 
-    def settings(self, raws: Iterable[tuple[Point, int]]) -> Iterator[tuple[str, int | Fraction]]:
-        """Yield the settings of these raw numbers for rules, without points whose variants have different places."""
-        for point, raw in raws:
-            if self.teaches(point):
-                yield point.name, setting_of(point, raw)
-
     def teaches(self, point: Point) -> bool:
-        """Return True if a rule needs the raw number of this point."""
+        """Return True if a rule needs the raw number of this point, and not if its variants have different places."""
         return point.name in self._settings
+
+
+_MOST_PLANS = 1024
+"""The number of places whose plan is kept."""
+
+Read = Callable[[Sequence[int]], Any]
+"""Returns the raw number of a point from the words of a frame; None while it lacks words of other frames."""
+
+Step = tuple[PointFormatter | None, Read, Any]
+"""A point and its number, or without a formatter what has no point: a place, as whoever makes the plan knows it."""
+
+
+@dataclass(slots=True)
+class Plan:
+    """How the words at one place become items. `taught` are the points that are settings for others."""
+
+    taught: Sequence[tuple[Point, Read]]
+    steps: Sequence[Step]
+    _version: int = -1
+    _needs: bool = True
+    """False if nothing in it depends on settings."""
+    _in_force: Sequence[tuple[Callable[[int], PointItem] | None, Step]] = ()
+
+    def in_force(self, state: DecodeState) -> Sequence[tuple[Callable[[int], PointItem] | None, Step]]:
+        """Return the steps, each with the function that makes an item of the number under the present settings."""
+        if self._version != state.version and (self._needs or not self._in_force):
+            self._in_force = [(step[0].under(state.settings) if step[0] else None, step) for step in self.steps]
+            self._version, self._needs = state.version, any(step[0] and step[0].needs for step in self.steps)
+        return self._in_force
+
+    def teach(self, state: DecodeState, words: Sequence[int]) -> None:
+        """Let the state learn the settings in the words."""
+        if self.taught:
+            state.learn([(point, raw) for point, read in self.taught if (raw := read(words)) is not None])
 
 
 @dataclass(slots=True)
@@ -271,20 +194,32 @@ class DecodeState:
     """The settings that have changed since the incomplete points were last tried."""
     blocks: FoundBlocks | None = None
     """The blocks that a master searches for, if the device has such."""
+    plans: dict[Any, Plan] = field(default_factory=dict)
+    """The plans for the words of spans and telegrams, by their place."""
 
     def locate(self, span: AddressSpan, described: Device) -> None:
         """Move the points of blocks to their addresses, as far as the words that the unit reported show them."""
         if self.blocks is not None and self.blocks.take(span.space, span.address, span.words or ()):
             self.device = moved(described, self.blocks.starts, self.blocks.lasts)
-            self.directory, self.formatters = Directory(self.device), {}
+            self.directory, self.formatters, self.plans = Directory(self.device), {}, {}
             self.version += 1
+
+    def planned(self, place: object, plan: Plan) -> Plan:
+        """Keep the plan for the words at a place, and return it."""
+        if len(self.plans) >= _MOST_PLANS:
+            self.plans.clear()
+        self.plans[place] = plan
+        return plan
 
     def learn(self, raws: Iterable[tuple[Point, int]]) -> None:
         """Keep the numbers of points that the device reported."""
-        for name, setting in self.directory.settings(raws):
-            before = self.settings.get(name)
+        for point, raw in raws:
+            name = point.name
+            if name in self.given or not self.directory.teaches(point):
+                continue
+            before, setting = self.settings.get(name), setting_of(point, raw)
             # a special code equals the plain number, and is not a quantity
-            if name not in self.given and (before != setting or type(before) is not type(setting)):
+            if before != setting or type(before) is not type(setting):
                 self.settings[name] = setting
                 self.changed.add(name)
                 self.version += 1
@@ -301,7 +236,7 @@ class DecodeState:
 
     def value(self, point: Point, base: Base, raw: int, *, written: bool = False) -> Item:
         """Return a point with the meaning of its raw number."""
-        return self.formatter(point, base, written=written).item(raw, self.settings)
+        return self.formatter(point, base, written=written).under(self.settings)(raw)
 
     def formatter(self, point: Point, base: Base, *, written: bool = False) -> PointFormatter:
         """Return the formatter of a point at this place."""

@@ -7,11 +7,12 @@ from typing import Any
 
 from fieldscribe.arithmetic.codec import Settings
 from fieldscribe.conversation.address_items import element_items, span_items, word_items
-from fieldscribe.conversation.decode_state import DecodeState, Directory, FoundBlocks, PointFormatter
+from fieldscribe.conversation.decode_state import DecodeState, Directory, FoundBlocks
 from fieldscribe.conversation.encoding import family_part
+from fieldscribe.conversation.point_items import PointFormatter
 from fieldscribe.conversation.telegram_items import mask_items, piece_items, process_items
 from fieldscribe.families import decoded_frame
-from fieldscribe.families.frame_results import Captured, FrameResult, Item, Options
+from fieldscribe.families.frame_results import FrameResult, Item, Options
 from fieldscribe.model import Device
 from fieldscribe.text import line
 from fieldscribe.wording import label
@@ -90,44 +91,44 @@ class StreamDecoder:
 
     def _pasted(self, frame: Any, *, expecting: bool = False) -> FrameResult:
         """Decode the next frame; where a text says more than bytes, the result has that."""
-        captured = None if isinstance(frame, bytes) else frame
-        return self._decode(frame, self._open_requests, expecting=expecting, captured=captured)
+        result = self.decode(frame, expecting=expecting)
+        return result if isinstance(frame, bytes) else result._replace(frame=frame)
 
     def decode(
         self, frame: Any, *, expecting: bool = False, requests: decoded_frame.OpenRequests | None = None
     ) -> FrameResult:
         """Decode the next frame; any bytes are safe. `expecting`: the following frames answer it.
 
-        `requests` are the open requests that it may answer, if the frames of several lines are mixed.
+        `requests` are the open requests that it may answer, if the frames of several lines are mixed. The result may be
+        one that an equal frame had.
         """
-        return self._decode(frame, self._open_requests if requests is None else requests, expecting=expecting)
-
-    def _decode(
-        self, frame: Any, requests: decoded_frame.OpenRequests, *, expecting: bool, captured: Captured | None = None
-    ) -> FrameResult:
+        requests = requests or self._open_requests
         decoded = self._frame_decoder.decode(frame, requests, expecting=expecting)
         state = self._state_of_unit(decoded.unit if self._device.found is None else decoded.result.unit)
         requests.follow(decoded, expecting=expecting)
-        memo, version = decoded.memo, state.version
-        if memo:
+        memo, version = None if isinstance(frame, decoded_frame.CutFrame) else decoded.memo, state.version
+        if memo and memo[0] is state:
             kept: FrameResult = memo[2]
-            if memo[0] is state and (memo[1] == version or _stays(state, kept)):
-                return kept if kept.captured is captured else kept._replace(captured=captured)
+            if memo[1] not in (version, None) and _stays(state, kept):
+                memo[1] = None
+            if memo[1] in (version, None):
+                return kept
         for content in decoded.contents if state.blocks else ():
             if isinstance(content, decoded_frame.AddressSpan) and content.learned and not content.written:
                 state.locate(content, self._device)
         items = tuple([item for content in decoded.contents for item in _ITEMS[type(content)](state, content)])
         framings = self._framings
-        notes = tuple(self._warnings(decoded, state.directory))
-        if isinstance(frame, decoded_frame.CutFrame):
-            return decoded.result.complete(items, (*notes, frame.note))
-        result = decoded.result.complete(items, notes, captured)
-        is_settled = not state.incomplete or not any(item.point in state.incomplete for item in items)
+        data = frame if isinstance(frame, bytes) else frame.data
+        notes = decoded.result.notes
+        if framings or decoded.request or self._misprints or data is frame:
+            notes += tuple(self._warnings(decoded, data, state.directory))
+        result = decoded.result._replace(items=items, notes=notes, frame=frame)
+        is_settled = not state.incomplete or state.incomplete.keys().isdisjoint([item.point for item in items])
         if memo is not None and framings is self._framings and is_settled:
             memo[:] = state, version, result
         return result
 
-    def _warnings(self, decoded: decoded_frame.DecodedFrame, directory: Directory) -> Iterator[str]:
+    def _warnings(self, decoded: decoded_frame.DecodedFrame, data: bytes, directory: Directory) -> Iterator[str]:
         """Yield what may be a mistake in a frame: its framing, an address from 1, a misprint of the manual."""
         framing = decoded.result.framing
         if self._framings and framing not in self._framings:  # once is enough: a gateway changes all frames
@@ -137,9 +138,11 @@ class StreamDecoder:
         for content in decoded.contents if decoded.request else ():
             if isinstance(content, decoded_frame.AddressSpan):
                 yield from _off_by_one(directory, content)
-        misprint = self._misprints.get(decoded.result.data)
+        misprint = self._misprints.get(data)
         if misprint is not None:
             yield misprint_text(misprint)
+        if isinstance(data, decoded_frame.CutFrame):
+            yield data.note
 
 
 def _stays(state: DecodeState, result: FrameResult) -> bool:

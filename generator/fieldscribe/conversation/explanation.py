@@ -8,7 +8,8 @@ from fieldscribe import wording
 from fieldscribe.arithmetic.exact import float_of, pattern_of
 from fieldscribe.arithmetic.words import ends_of, number_of, with_fixed
 from fieldscribe.conversation.decode_state import Directory
-from fieldscribe.conversation.meanings import Doubts, Meanings, raw_form
+from fieldscribe.conversation.meanings import Meanings, raw_form
+from fieldscribe.conversation.point_items import Doubts
 from fieldscribe.facts.points import POINT
 from fieldscribe.facts.table import Context, Row
 from fieldscribe.facts.texts import place_in_manual

@@ -1,15 +1,12 @@
-"""Turns a raw number of a point into words: its value with the unit, a name, flags, a text, digits.
-
-A number outside its range has other readings: the words swapped, the other sign, and the points one address up and
-down. Those that lie in range are listed; nothing is ranked or inferred.
-"""
+"""Turns a raw number of a point into words: its value with the unit, a name, flags, a text, digits."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from functools import lru_cache, partial
+from math import gcd
 from typing import NamedTuple
 
 from fieldscribe import wording
@@ -18,17 +15,18 @@ from fieldscribe.arithmetic.codec import CodecError, Settings
 from fieldscribe.arithmetic.exact import float_of
 from fieldscribe.arithmetic.exact import pattern_of as float_pattern
 from fieldscribe.arithmetic.texts import date_of, text_of
-from fieldscribe.arithmetic.words import mask_of, number_of, pattern_of, reader_of, words_of
-from fieldscribe.conversation.refusals import amount, failure, in_range, is_short, range_fault, range_of
+from fieldscribe.arithmetic.words import mask_of, words_of
+from fieldscribe.conversation.refusals import amount, failure, is_short
 from fieldscribe.families.frame_results import Bits, bits_label
 from fieldscribe.model import Device, Entry, Flag, Point, Text
 from fieldscribe.report import visible
 from fieldscribe.text import line
-from fieldscribe.wording import label
-from fieldscribe.wording.exact import exact, number_text, rounded
+from fieldscribe.wording.exact import decimal_places, number_text, rounded, shortest
 
-_MOST_NUMBERS = 64
-"""The number of cached texts of a flag."""
+_MOST_SETTINGS = 256
+"""How many numbers of the points that a scale needs are remembered, with what they make of it."""
+_GROUP = 8
+"""The most bits of neighbouring flags whose texts are cached together."""
 
 
 class Meaning(NamedTuple):
@@ -44,82 +42,82 @@ class Meaning(NamedTuple):
     flags: FlagTexts | None = None
 
 
+Meant = Callable[[int], Meaning]
+"""Returns the meaning of a raw number of a point, under some settings of other points."""
+
+
 class Meanings:
     """The meanings of one point's raw numbers. It never fails: if a meaning is unknown, the text says so."""
 
     def __init__(self, device: Device, point: Point) -> None:
-        self._device, self._point = device, point
-        self._of_names = _naming(point)
-        self._specials, self._unit = point.specials, point.unit.symbol
-        self._arguments, self._display = point.scale_arguments, point.display
+        self._device, self._point, self._names = device, point, point.scale_arguments
+        self._named = _naming(point)
         number = not point.info.floating and not point.epoch
-        self._exact = number and point.most_raw is None and (point.generated or point.scale is not None)
+        self._is_exact = number and point.most_raw is None
         # typed: a special code equals the plain number, and is no quantity
-        self._rule = lru_cache(_MOST_NUMBERS, typed=True)(self._rule_of)
-        self._fixed = self._rule_of() if self._exact and not self._arguments else (1, 0, 1)
+        self._under = lru_cache(_MOST_SETTINGS, typed=True)(self._made_under)
 
     def of(self, raw: int, settings: Settings) -> Meaning:
         """Return the meaning of a raw number under these settings of other points."""
-        special = self._point.special(raw) if self._specials else None
-        if special is not None:
-            remark = ", no value" if special.no_value else ""
-            return Meaning(line(f"{special.name} ({wording.title_text(special.title)}){remark}"))
-        if self._of_names is not None:
-            return self._of_names(raw)
-        return (self._exact_quantity(raw, settings) if self._exact else None) or self._quantity(raw, settings)
+        return self.under(settings)(raw)
+
+    def under(self, settings: Settings) -> Meant:
+        """Return the function that gives the meanings under these settings."""
+        return self._under(*[settings.get(name) for name in self._names])
 
     def text(self, raw: int, settings: Settings) -> str:
         """Return the meaning of a raw number as text, with the flags of a word in one sentence."""
         meaning = self.of(raw, settings)
         return meaning.text if meaning.flags is None else meaning.flags.sentence(raw)
 
-    def lacks(self, settings: Settings) -> bool:
-        """Return True if the scale needs points without a setting here."""
-        try:
-            codec.rule_in_force(self._point, settings)
-        except CodecError as error:
-            return bool(error.missing)
-        return False
+    def _made_under(self, *values: int | Fraction | None) -> Meant:
+        settings = {name: value for name, value in zip(self._names, values, strict=True) if value is not None}
+        meant = self._named or partial(self._quantity, settings)
+        if self._is_exact and self._named is None:
+            try:
+                meant = self._exact_quantity(meant, *codec.rule_in_force(self._point, settings))
+            except CodecError as error:
+                meant = _always(self._unknown(error))
+        return partial(self._special_or, meant) if self._point.specials else meant
 
-    def _rule_of(self, *values: int | Fraction | None) -> tuple[int, int, int]:
-        """Return (multiply, add, divide): a value is raw * multiply + add, divided by a positive number."""
-        pairs = zip(self._arguments, values, strict=True)
-        settings = {name: value for name, value in pairs if value is not None}
-        ratio, offset = codec.rule_in_force(self._point, settings)
-        sign = 1 if ratio > 0 else -1
+    def _special_or(self, meant: Meant, raw: int) -> Meaning:
+        special = self._point.special(raw)
+        if special is None:
+            return meant(raw)
+        remark = ", no value" if special.no_value else ""
+        return Meaning(line(f"{special.name} ({wording.title_text(special.title)}){remark}"))
+
+    def _exact_quantity(self, otherwise: Meant, ratio: Fraction, offset: Fraction) -> Meant:
+        """Return a function that does what `_quantity` does: quickly for short decimals, else by `otherwise`."""
+        display, unit = self._point.display, f" {symbol}" if (symbol := self._point.unit.symbol) else ""
         multiply, divide = offset.denominator * ratio.denominator, offset.denominator * ratio.numerator
-        return sign * multiply, -sign * offset.numerator * ratio.denominator, sign * divide
+        add = -offset.numerator * ratio.denominator
+        common = gcd(multiply, add, divide) * (1 if divide > 0 else -1)
+        places = decimal_places(divide // common)
+        if places is None:
+            return otherwise
+        whole = 10**places
+        multiply, add = multiply * whole // divide, add * whole // divide
 
-    def _exact_quantity(self, raw: int, settings: Settings) -> Meaning | None:
-        """Return the result of `_quantity` if that is a short decimal; else None."""
-        try:
-            names = self._arguments
-            multiply, add, divide = self._rule(*[settings.get(name) for name in names]) if names else self._fixed
-        except CodecError:
-            return None
-        number = raw * multiply + add
-        value = exact(number, divide)
-        if "/" in value:
-            return None
-        if self._display is not None:
-            text = rounded(number, divide, self._display)
-        elif is_short(value):
-            text = value
-        else:
-            return None
-        return Meaning(f"{text} {self._unit}" if self._unit else text, value)
+        def meant(raw: int) -> Meaning:
+            count = raw * multiply + add
+            value = shortest(count, places)
+            if display is not None:
+                return Meaning(f"{rounded(count, whole, display)}{unit}", value)
+            return Meaning(value + unit, value) if is_short(value) else otherwise(raw)
 
-    def _quantity(self, raw: int, settings: Settings) -> Meaning:
+        return meant
+
+    def _unknown(self, error: CodecError) -> Meaning:
+        message, hint = failure(self._device, self._point, error)
+        return Meaning(f"not known: {message}", None, error.missing, hint)
+
+    def _quantity(self, settings: Settings, raw: int) -> Meaning:
         point = self._point
-        if not point.generated and point.scale is None:
-            return Meaning(line(point.reason or "its meaning is not settled"))
         try:
             value = codec.decode(point, raw, settings)
         except CodecError as error:
-            if error.status == "not_a_number":
-                return Meaning(str(codec.float_of(point, raw)))
-            message, hint = failure(self._device, point, error)
-            return Meaning(f"not known: {message}", None, error.missing, hint)
+            return Meaning(str(codec.float_of(point, raw))) if error.status == "not_a_number" else self._unknown(error)
         if point.display is not None:
             text = rounded(value.numerator, value.denominator, point.display)
         else:
@@ -129,7 +127,11 @@ class Meanings:
         return Meaning(wording.with_unit(text, point), number_text(value))
 
 
-def _naming(point: Point) -> Callable[[int], Meaning] | None:
+def _always(meaning: Meaning) -> Meant:
+    return lambda _raw: meaning
+
+
+def _naming(point: Point) -> Meant | None:
     """Return the function that names the raw numbers of a point; None if they are quantities."""
     if (layout := point.text) is not None:
         return partial(_text_meaning, layout)
@@ -140,11 +142,13 @@ def _naming(point: Point) -> Callable[[int], Meaning] | None:
             line(entries.get(raw, "")) or f"{number(raw)}, a number without a name in the manual"
         )
     if point.flags:
-        meaning = Meaning("", flags=FlagTexts(point))
-        return lambda _raw: meaning
+        return _always(Meaning("", flags=FlagTexts(point)))
     if point.digits is not None:
         return lambda raw: Meaning(_digits_text(point, raw))
-    return (lambda raw: Meaning("on" if raw else "off")) if point.type == "bit" else None
+    if point.type == "bit":
+        return lambda raw: Meaning("on" if raw else "off")
+    is_known = point.generated or point.scale is not None
+    return None if is_known else _always(Meaning(line(point.reason or "its meaning is not settled")))
 
 
 def _text_meaning(layout: Text, raw: int) -> Meaning:
@@ -156,49 +160,62 @@ def _text_meaning(layout: Text, raw: int) -> Meaning:
 
 
 class FlagTexts:
-    """Explains the flags of a point; its texts are cached."""
+    """Explains the flags of a point. Neighbouring flags share a cache, because a word has too many numbers for one."""
 
     def __init__(self, point: Point) -> None:
-        self._flags, self._width = point.flags, point.width
+        self._width, self._unnamed = point.width, mask_of(point.width)
         self._lowest = point.bits[1] if point.bits else 0
-        self._named = sum(mask_of(flag.width) << flag.low for flag in point.flags)
-        self._bits = [lru_cache(_MOST_NUMBERS)(partial(_flag_bits, flag, self._lowest)) for flag in point.flags]
-        self._texts = [lru_cache(_MOST_NUMBERS)(partial(_flag_text, flag)) for flag in point.flags]
-        self._apart = lru_cache(_MOST_NUMBERS)(self._split_flags)
+        self._groups: list[tuple[int, Callable[[int], _Texts], Callable[[int], list[Bits]]]] = []
+        flags: list[Flag] = []
+        for flag, following in zip(point.flags, (*point.flags[1:], None), strict=True):
+            flags.append(flag)
+            if following is None or sum(one.width for one in (*flags, following)) > _GROUP:
+                mask = sum(mask_of(one.width, one.low) for one in flags)
+                texts, bits = partial(_texts_of, tuple(flags)), partial(_bits_of, tuple(flags), self._lowest)
+                self._groups.append((mask, lru_cache(1 << _GROUP)(texts), lru_cache(1 << _GROUP)(bits)))
+                self._unnamed &= ~mask
+                flags.clear()
 
     def sentence(self, raw: int) -> str:
         """Return all flags in one sentence: those that are true first."""
-        true, false = self._apart(raw)
-        parts = [", ".join(true) or "none set"]
-        if false:
-            parts.append(f"not set: {', '.join(false)}")
+        texts = [texts(raw & mask) for mask, texts, _ in self._groups]
+        parts = [", ".join([true for true, _ in texts if true]) or "none set"]
+        if false := ", ".join([false for _, false in texts if false]):
+            parts.append(f"not set: {false}")
         if bits := self._nameless(raw):
             named = ", ".join(map(str, bits))
             parts.append(f"also bit{'s' if len(bits) > 1 else ''} {named}, which the manual does not name")
-        return line("; ".join(parts))
+        return "; ".join(parts)
 
     def true(self, raw: int) -> str:
         """Return only the flags that apply."""
-        return line(", ".join(self._apart(raw)[0]) or "none set")
-
-    def _split_flags(self, raw: int) -> tuple[list[str], list[str]]:
-        """Return the flags that apply to a number, with those of several bits, and the flags that do not."""
-        true: list[str] = []
-        false: list[str] = []
-        for flag, text in zip(self._flags, self._texts, strict=True):
-            number = raw >> flag.low & mask_of(flag.width)
-            (true if flag.width > 1 or number == flag.active else false).append(text(number))
-        return true, false
+        return ", ".join([true for mask, texts, _ in self._groups if (true := texts(raw & mask)[0])]) or "none set"
 
     def bits(self, raw: int) -> list[Bits]:
         """Return each flag, and each set bit that the manual does not name."""
-        pairs = zip(self._flags, self._bits, strict=True)
-        named = [bits(raw >> flag.low & mask_of(flag.width)) for flag, bits in pairs]
+        named = [one for mask, _, bits in self._groups for one in bits(raw & mask)]
         return named + [_nameless_bit(self._lowest + bit) for bit in self._nameless(raw)]
 
     def _nameless(self, raw: int) -> list[int]:
-        rest = raw & ~self._named
+        rest = raw & self._unnamed
         return [bit for bit in range(self._width) if rest >> bit & 1] if rest else []
+
+
+_Texts = tuple[str, str]
+"""The flags that apply to a number, with those of several bits, and the flags that do not."""
+
+
+def _texts_of(flags: Sequence[Flag], raw: int) -> _Texts:
+    true: list[str] = []
+    false: list[str] = []
+    for flag in flags:
+        number = raw >> flag.low & mask_of(flag.width)
+        (true if flag.width > 1 or number == flag.active else false).append(_flag_text(flag, number))
+    return line(", ".join(true)), line(", ".join(false))
+
+
+def _bits_of(flags: Sequence[Flag], lowest: int, raw: int) -> list[Bits]:
+    return [_flag_bits(flag, lowest, raw >> flag.low & mask_of(flag.width)) for flag in flags]
 
 
 def _flag_bits(flag: Flag, lowest: int, number: int) -> Bits:
@@ -282,79 +299,3 @@ def _digits_text(point: Point, raw: int) -> str:
         quantity = f" ({entry.quantity})" if entry is not None and entry.quantity else ""
         parts.append(f"{digit} {'without a name' if entry is None else entry.name}{quantity}")
     return line("digits " + ", ".join(parts))
-
-
-Neighbours = Callable[[int], Iterable[Point]]
-"""Returns the points that begin at an address of the same space."""
-
-
-class Doubts:
-    """Finds doubts about the numbers of a point; its limits and neighbours are looked up once."""
-
-    def __init__(self, device: Device, point: Point, neighbours: Neighbours) -> None:
-        self._device, self._point, self.fits = device, point, _range_test(point)
-        """`fits` returns True if a number lies in range."""
-        self._meanings, self._range = Meanings(device, point), ""
-        self._is_plain = point.form in ("scaled", "integer") and not (point.limit_arguments or point.fixed)
-        self._read, self._swaps = reader_of(point), point.words > 1
-        self._is_limited, self._is_signed = _is_limited(point), not point.info.floating
-        first = point.addresses[0] if point.addresses else 0
-        if point.variant is not None and point.addresses:  # which variant this is, nobody may have said
-            tests = [_range_test(other) for other in neighbours(first) if other.variant and other.words == point.words]
-            self.fits = lambda raw, settings: any(test(raw, settings) for test in tests)
-        others = [
-            (f"one address {name}, {label(other)},", other)
-            for name, address in ((("up", first + 1), ("down", first - 1)) if point.addresses else ())
-            for other in neighbours(address)
-            if other.words == point.words and other.generated and other.readable and _is_limited(other)
-        ]
-        self._others = [(text, reader_of(one), _range_test(one), Meanings(device, one)) for text, one in others]
-
-    def of(self, raw: int, settings: Settings, meaning: str) -> tuple[str, ...]:
-        """Return a text that a number is out of range, then the other readings.
-
-        `meaning` is its meaning.
-        """
-        if self._is_plain and meaning:
-            self._range = self._range or range_of(self._device, self._point, settings)
-            fault = line(f"{meaning} is outside {self._range}")
-        else:
-            fault = range_fault(self._device, self._point, raw, settings)
-        return (fault, *self._near_misses(raw, settings)) if fault else ()
-
-    def _near_misses(self, raw: int, settings: Settings) -> Iterator[str]:
-        """Yield the other readings that lie in range and have a meaning."""
-        words = words_of(self._point, raw)
-        for text, number, meanings in self._readings(raw, words, settings):
-            meaning = meanings.of(number, settings)
-            if meaning.text and not (meaning.missing or meaning.hint):
-                yield line(f"{text} it is {meaning.text}")
-
-    def _readings(self, raw: int, words: tuple[int, ...], settings: Settings) -> Iterator[tuple[str, int, Meanings]]:
-        """Yield each other reading in range: in words, its raw number, and its meaning."""
-        if self._is_limited and self._swaps and self.fits(number := self._read(words[::-1]), settings):
-            yield "with its words swapped", number, self._meanings
-        if self._is_limited and self._is_signed:
-            signed = number_of(pattern_of(self._point, raw), self._point.width, signed=True)
-            if signed < 0 and self.fits(-signed, settings):
-                text, number = ("without its sign", -signed) if raw < 0 else ("as a signed number", signed)
-                yield text, number, self._meanings
-        for text, read, fits, meanings in self._others:
-            if fits(number := read(words), settings):
-                yield text, number, meanings
-
-
-def _is_limited(point: Point) -> bool:
-    """Return True if the manual limits the numbers of a point."""
-    return bool(point.allowed.intervals or point.allowed.units or (point.enum is not None and point.enum.closed))
-
-
-def _range_test(point: Point) -> Callable[[int, Settings], bool]:
-    """Return a function that does for this point what `in_range` does."""
-    spans = [(span.low, span.high) for span in point.allowed.intervals]
-    ends = [(low, high) for low, high in spans if isinstance(low, int) and isinstance(high, int)]
-    special = point.specials or point.fixed or point.digits or point.info.floating
-    if special or len(ends) < len(spans) or not ends:
-        return lambda raw, settings: in_range(point, raw, settings)
-    least, greatest = point.least, point.greatest
-    return lambda raw, _: least <= raw <= greatest and any(low <= raw <= high for low, high in ends)

@@ -155,6 +155,8 @@ def _out_of_range(
 ) -> RefusedError:
     value, raw = number
     if point.enum is not None and all(isinstance(interval.low, int) for interval in point.allowed.intervals):
+        if not hinted:
+            return _refused(point, "out_of_range", f"does not take {raw}")
         beyond = "" if point.enum.closed else f"; raw {wording.raw_range_text(point)} may be written"
         status = "unknown_value" if point.enum.closed else "out_of_range"
         return _refused(point, status, f"does not take {raw}", f"it has {_entries(point.enum)}{beyond}", joint=" ")

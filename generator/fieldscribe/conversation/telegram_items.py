@@ -1,11 +1,13 @@
 """Items of telegrams: process data with masks, and telegrams in several frames."""
 
-from collections.abc import Callable, Iterator, Sequence
-from typing import NamedTuple
+from collections.abc import Iterator, Sequence
+from functools import partial
+from operator import itemgetter
 
 from fieldscribe.arithmetic.words import raw_of, reader_of
-from fieldscribe.conversation.decode_state import DecodeState, PointFormatter, named_item
-from fieldscribe.families.decoded_frame import Masks, Piece, ProcessData
+from fieldscribe.conversation.decode_state import DecodeState, Directory, Plan, Read, Step, named_item
+from fieldscribe.conversation.point_items import PointFormatter
+from fieldscribe.families.decoded_frame import Layout, Masks, Piece, ProcessData
 from fieldscribe.families.frame_results import Item
 from fieldscribe.model import Device, Point
 from fieldscribe.wording.frames import hex_words, word_text
@@ -63,43 +65,27 @@ def _mask_item(state: DecodeState, place: int, at: int, words: tuple[int, ...]) 
     return Item("mask", at, len(words), f"mask {hex_words(words)}: {text}", subject=f"mask of {about}")
 
 
-class _Part(NamedTuple):
-    """A point in the frames of a telegram. `whole`: each has all words of the point, and `read` takes all its words."""
-
-    point: Point
-    formatter: PointFormatter
-    read: Callable[[Sequence[int]], int]
-    whole: bool
-
-
 def piece_items(state: DecodeState, piece: Piece) -> list[Item]:
     """Return the items of a frame of a telegram, and of earlier points whose missing settings it has."""
-    telegram, settings = piece.telegram.name, state.settings
-    plan = state.directory.plans.get(((telegram, piece.positions.start, -1), len(piece.positions)))
-    parts, teaching = plan or _planned(state, piece)
-    if teaching:
-        state.learn([(part.point, raw) for part in teaching if (raw := _raw(part, piece)) is not None])
+    layout, words = piece
+    plan = state.plans.get(layout) or state.planned(layout, _plan(state, layout))
+    plan.teach(state, words)
     items: list[Item] = []
     incomplete: dict[str, tuple[PointFormatter, int]] = {}
-    for place, part in parts:
-        if part is None:
-            word = hex_words((piece.words[place - piece.positions.start],))
-            subject = f"word {place}"
-            text = f"{subject}: no point is described here ({word})"
-            items.append(Item(telegram, place, 1, text, subject=subject))
+    for make, (formatter, read, place) in plan.in_force(state):
+        raw = read(words)
+        if make is None or formatter is None:
+            items.append(_nameless_item(layout, place, raw))
             continue
-        formatter = part.formatter
-        raw = part.read(piece.words) if part.whole else _raw(part, piece)
         if raw is None:
-            text = _incomplete_text(state, piece, part.point, formatter)
-            items.append(named_item(part.point, formatter.base, text))
+            text = _incomplete_text(state, layout, formatter)
+            items.append(named_item(formatter.point, formatter.base, text))
             continue
-        item = formatter.item(raw, settings)
+        item = make(raw)
         if state.incomplete:
             state.incomplete.pop(formatter.name, None)
-        if formatter.needs and item.missing:
+        if item.missing:
             incomplete[formatter.name] = formatter, raw
-            item = item.but(summary=item.summary + _source_text(state, piece, item.missing))
         items.append(item)
     if state.changed:
         items += _completed_items(state)
@@ -108,64 +94,74 @@ def piece_items(state: DecodeState, piece: Piece) -> list[Item]:
     return items
 
 
-def _planned(state: DecodeState, piece: Piece) -> tuple[list[tuple[int, _Part | None]], list[_Part]]:
-    """Return the contents of a frame of a telegram by place (None: no point), and those that rules need.
-
-    All such frames share them.
-    """
-    telegram, positions, directory = piece.telegram.name, piece.positions, state.directory
-    parts: list[tuple[int, _Part | None]] = []
+def _plan(state: DecodeState, layout: Layout) -> Plan:
+    """Return the plan for the frames of a telegram with these words."""
+    telegram, positions, directory = layout.telegram.name, layout.positions, state.directory
+    steps: list[Step] = []
     for place in positions:
         points = directory.at(telegram, place)
-        parts += [] if points else [(place, None)]
+        if not points:
+            steps.append((None, itemgetter(place - positions.start), place))
         for point in points:
             if place == min(position for position in point.addresses if position in positions):
                 formatter = state.formatter(point, (telegram, min(point.addresses), len(point.addresses)))
-                whole = all(at in positions for at in point.addresses)
-                offsets = [at - positions.start for at in point.addresses] if whole else ()
-                parts.append((place, _Part(point, formatter, reader_of(point, offsets), whole)))
-    teaching = [part for _, part in parts if part is not None and directory.teaches(part.point)]
-    directory.plans[(telegram, positions.start, -1), len(positions)] = parts, teaching
-    return parts, teaching
+                formatter.sources = partial(_source_text, directory, layout)
+                steps.append((formatter, _reader(layout, point), place))
+    taught = [(one.point, read) for one, read, _ in steps if one is not None and directory.teaches(one.point)]
+    return Plan(taught, steps)
 
 
-def _raw(part: _Part, piece: Piece) -> int | None:
-    """Return the raw number; None while words of other frames are missing."""
-    if part.whole:
-        return part.read(piece.words)
-    status, words = piece.pieces.words(part.point.addresses)
-    return part.read(words) if status == "ok" else None
+def _reader(layout: Layout, point: Point) -> Read:
+    """Return the function that reads the number of a point from the words of a frame, and if need be of others."""
+    positions, pieces = layout.positions, layout.pieces
+    if pieces is None or all(at in positions for at in point.addresses):
+        return reader_of(point, [at - positions.start for at in point.addresses])
+
+    def read(_words: Sequence[int]) -> int | None:
+        status, words = pieces.words(point.addresses)
+        return raw_of(point, words) if status == "ok" else None
+
+    return read
 
 
-def _source_text(state: DecodeState, piece: Piece, missing: tuple[str, ...]) -> str:
+def _nameless_item(layout: Layout, place: int, word: int) -> Item:
+    subject = f"word {place}"
+    text = f"{subject}: no point is described here ({hex_words((word,))})"
+    return Item(layout.telegram.name, place, 1, text, subject=subject)
+
+
+def _source_text(directory: Directory, layout: Layout, missing: tuple[str, ...]) -> str:
     """Return the places of missing points in the telegram; empty if it has none of them."""
-    if not piece.pieces.per_frame:
+    if layout.pieces is None:
         return ""
-    firsts = [state.directory.first(piece.telegram.name, name) for name in missing]
-    slots = sorted({first // piece.pieces.per_frame for first in firsts if first is not None})
+    firsts = [directory.first(layout.telegram.name, name) for name in missing]
+    slots = sorted({first // layout.pieces.per_frame for first in firsts if first is not None})
     return f"; it comes with multiplexer {' and '.join(map(str, slots))}" if slots else ""
 
 
-def _incomplete_text(state: DecodeState, piece: Piece, point: Point, formatter: PointFormatter) -> str:
+def _incomplete_text(state: DecodeState, layout: Layout, formatter: PointFormatter) -> str:
     """Return a text about a number whose words are in several frames and may not belong together."""
-    per_frame = piece.pieces.per_frame
-    words = [(at, *piece.pieces.words((at,))) for at in point.addresses]
+    point, pieces = formatter.point, layout.pieces
+    assert pieces is not None
+    words = [(at, *pieces.words((at,))) for at in point.addresses]
     if any(status != "ok" for _, status, _ in words):
         came = [f"only the {word_text(point.addresses, at)} = {here[0]:04X}h" for at, _, here in words if here]
-        slots = dict.fromkeys(str(at // per_frame) for at, _, here in words if not here)
+        slots = dict.fromkeys(str(at // pieces.per_frame) for at, _, here in words if not here)
         return f"{', '.join(came)}; the rest comes with multiplexer {' and '.join(slots)}"
     would = formatter.value(raw_of(point, [here[0] for _, _, here in words]), state.settings)
     return (
         f"its words are in two frames and may be torn; {would} if the high word stayed as it is: "
-        f"the next frame with multiplexer {point.addresses[0] // per_frame} tells"
+        f"the next frame with multiplexer {point.addresses[0] // pieces.per_frame} tells"
     )
 
 
 def _completed_items(state: DecodeState) -> Iterator[Item]:
     """Return points of earlier frames whose missing settings this frame has."""
     for name, (formatter, raw) in list(state.incomplete.items()):
-        if not state.changed.isdisjoint(formatter.needs) and not formatter.lacks(state.settings):
+        if state.changed.isdisjoint(formatter.needs):
+            continue
+        item = formatter.under(state.settings)(raw)
+        if not item.missing:
             del state.incomplete[name]
-            item = formatter.item(raw, state.settings)
             yield item.but(summary=f"from a frame before: {item.summary}")
     state.changed.clear()

@@ -85,13 +85,20 @@ class Pieces(Protocol):
         """Return ("ok", words); another status and no words while they are not known."""
 
 
-class Piece(NamedTuple):
-    """The words of one frame of a telegram that comes in several frames."""
+@dataclass(frozen=True, slots=True, eq=False)
+class Layout:
+    """Which words of a telegram a frame has. `pieces` is None if each frame has all words of its points."""
 
     telegram: Telegram
     positions: range
+    pieces: Pieces | None = None
+
+
+class Piece(NamedTuple):
+    """The words of one frame of a telegram; frames with the same words share a layout."""
+
+    layout: Layout
     words: tuple[int, ...]
-    pieces: Pieces
 
 
 Content = AddressSpan | Element | Word | ProcessData | Masks | Piece | Item
@@ -129,6 +136,11 @@ class OpenRequests:
     def request(self, unit: int | None = None, exchange: str = "") -> Any:
         """Return the open request; None if there is none."""
         return self._open.get((unit, exchange))
+
+    def clear(self) -> None:
+        """Forget the requests, and who has been sent one."""
+        self._open.clear()
+        self._addressed.clear()
 
     def addressed(self, unit: int | None) -> bool:
         """Return True if this unit has been sent a request."""

@@ -128,7 +128,11 @@ class Item:
 
 
 class Captured(Protocol):
-    """A frame as it was captured from the bus."""
+    """A frame as it was captured from a bus where that is more than bytes."""
+
+    @property
+    def data(self) -> bytes:
+        """The bytes that it carries."""
 
     @property
     def text(self) -> str:
@@ -144,11 +148,10 @@ class FrameResult(NamedTuple):
 
     `kind`: request, reply, request_or_reply, exception, cyclic, broadcast, other (not of this device), unreadable.
     `faults` say what is damaged in the frame; `findings` say where an undamaged frame contradicts the manual; `notes`
-    are other remarks. `details` are further facts of the family for JSON. `captured` is the frame in the notation of
-    its bus, if that is not plain bytes. `refusal` says how the device refuses a request, in one line.
+    are other remarks. `details` are further facts of the family for JSON. `refusal` says how the device refuses a
+    request, in one line. `frame` is what was decoded; a family leaves it out.
     """
 
-    data: bytes
     framing: str
     kind: str
     unit: int | None
@@ -161,20 +164,20 @@ class FrameResult(NamedTuple):
     notes: tuple[str, ...] = ()
     exception: int | None = None
     details: Mapping[str, object] = MappingProxyType({})
-    captured: Captured | None = None
     refusal: str = ""
+    frame: bytes | Captured = b""
 
     def as_data(self) -> dict[str, object]:
         """Return the same for JSON."""
         return {
-            "bytes": self.data.hex(" ").upper(),
+            "bytes": (self.frame if isinstance(self.frame, bytes) else self.frame.data).hex(" ").upper(),
             "framing": self.framing,
             "kind": self.kind,
             "unit": self.unit,
             "function": self.function,
             "exception": self.exception,
             **self.details,
-            **({} if self.captured is None else self.captured.details),
+            **({} if isinstance(self.frame, bytes) else self.frame.details),
             "summary": self.summary,
             "items": [item.as_data() for item in self.items],
             "checks": self.checks,
@@ -182,12 +185,6 @@ class FrameResult(NamedTuple):
             "findings": list(self.findings),
             "notes": list(self.notes),
         }
-
-    def complete(
-        self, items: tuple[Item, ...], notes: tuple[str, ...], captured: Captured | None = None
-    ) -> FrameResult:
-        """Return the result with items and further notes, as it was captured."""
-        return self._replace(items=items, notes=self.notes + notes, captured=captured)
 
     @property
     def wrong(self) -> bool:

@@ -45,8 +45,8 @@ class Content:
             if result is not None:
                 self.findings.update(dict.fromkeys(result.findings, ""))
                 for item in result.items:
-                    if wrong := (*item.findings, *item.doubts):
-                        self.findings[item.about] = ", ".join(wrong)
+                    if item.findings or item.doubts:
+                        self.findings[item.about] = ", ".join((*item.findings, *item.doubts))
         if reply is not None and reply.refusal:
             self.findings[reply.refusal] = ""
         self._text = ""

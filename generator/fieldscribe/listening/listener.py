@@ -2,6 +2,7 @@
 
 from collections import OrderedDict
 from collections.abc import Callable, Hashable, Iterator, Sequence
+from functools import lru_cache
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -59,7 +60,7 @@ class Listener:
         self._default = next((station for station in stations if station.unit is None), None)
         self._decoders: dict[tuple[int, str | None], StreamDecoder] = {}
         self._open: OrderedDict[Hashable, _Open] = OrderedDict()
-        self._requests: OrderedDict[Hashable, OpenRequests] = OrderedDict()
+        self._requests = lru_cache(_MOST_OPEN)(lambda _exchange: OpenRequests())
         self._contents: dict[tuple[int, int], Content] = {}
         """The content by identity of request and answer: decoders return the same objects for repeated frames."""
         self._units: set[int | None] = set()
@@ -82,50 +83,38 @@ class Listener:
             yield self._exchange(waiting, None, None)
         self._open.clear()
 
-    def _frame(self, cut: Cut) -> Iterator[Exchange]:
+    def _frame(self, cut: Cut) -> list[Exchange]:
         if self.each is not None:
             self.each(self.part.packet(cut))
         if cut.damaged and cut.unit not in self._units:
-            yield Exchange(cut.time, cut.place, Content(), (cut,), (NOISE,))
-            return
+            return [Exchange(cut.time, cut.place, Content(), (cut,), (NOISE,))]
         key: tuple[Hashable, ...] = cut.place, cut.exchange
+        requests, gone = self._requests(key), list[Exchange]()
         if cut.sent and key in self._open:  # the client gave up waiting
-            yield self._unanswered(key)
-            self._requests.pop(key, None)
-        station, result = self._decoded(cut, self._open_requests(key))
+            gone = [self._unanswered(key)]
+            requests.clear()
+        station, result = self._decoded(cut, requests)
         if result is None or station is None:
-            yield Exchange(cut.time, cut.place, Content(cut.unit), (cut,), (FOREIGN,))
-            return
+            return [*gone, Exchange(cut.time, cut.place, Content(cut.unit), (cut,), (FOREIGN,))]
         if not cut.damaged:
             self._units.add(result.unit)
-        yield from self._paired(cut, (*key, result.unit) if cut.unit is None else key, station, result)
-
-    def _open_requests(self, key: Hashable) -> OpenRequests:
-        """Return the open requests of an exchange; those used last are kept."""
-        requests = self._requests.setdefault(key, OpenRequests()) if key not in self._requests else self._requests[key]
-        self._requests.move_to_end(key)
-        if len(self._requests) > _MOST_OPEN:
-            self._requests.popitem(last=False)
-        return requests
-
-    def _paired(self, cut: Cut, key: Hashable, station: Station, result: FrameResult) -> Iterator[Exchange]:
-        waiting = self._open.get(key)
         if result.kind == "cyclic":
-            yield Exchange(cut.time, cut.place, self._content(station, None, result), (cut,), result.faults)
-        elif result.kind in _ASKS and cut.sent is not False:
-            if waiting is not None:
-                yield self._unanswered(key)
+            return [*gone, Exchange(cut.time, cut.place, self._content(station, None, result), (cut,), result.faults)]
+        return gone + self._paired(cut, (*key, result.unit) if cut.unit is None else key, station, result)
+
+    def _paired(self, cut: Cut, key: Hashable, station: Station, result: FrameResult) -> list[Exchange]:
+        waiting = self._open.get(key)
+        if result.kind in _ASKS and cut.sent is not False:
+            gone = [] if waiting is None else [self._unanswered(key)]
             self._open[key] = _Open(cut, result, station)
-            if len(self._open) > _MOST_OPEN:
-                yield self._unanswered(next(iter(self._open)))
-        elif result.kind in _ANSWERS and waiting is not None and waiting.result.unit == result.unit:
+            return gone + ([self._unanswered(next(iter(self._open)))] if len(self._open) > _MOST_OPEN else [])
+        if result.kind in _ANSWERS and waiting is not None and waiting.result.unit == result.unit:
             del self._open[key]
-            yield self._exchange(waiting, result, cut)
-        else:
-            lonely = (ALONE,) if result.kind in _ANSWERS or result.kind in _ASKS else ()
-            asks = result.kind == "broadcast"
-            content = self._content(station, *((result, None) if asks else (None, result)))
-            yield Exchange(cut.time, cut.place, content, (cut,), (*result.faults, *lonely))
+            return [self._exchange(waiting, result, cut)]
+        lonely = (ALONE,) if result.kind in _ANSWERS or result.kind in _ASKS else ()
+        asks = result.kind == "broadcast"
+        content = self._content(station, *((result, None) if asks else (None, result)))
+        return [Exchange(cut.time, cut.place, content, (cut,), (*result.faults, *lonely))]
 
     def _unanswered(self, key: Hashable) -> Exchange:
         waiting = self._open.pop(key)

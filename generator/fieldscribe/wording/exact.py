@@ -85,6 +85,13 @@ def _decimal(count: int, places: int) -> str:
     return f"{'-' if count < 0 else ''}{digits[: len(digits) - places]}{point}{digits[len(digits) - places :]}"
 
 
+def shortest(count: int, places: int) -> str:
+    """Return a count of 10^-places as a decimal, without zeros at its end."""
+    whole, rest = divmod(abs(count), 10**places)
+    sign = "-" if count < 0 else ""
+    return f"{sign}{whole}.{rest:0{places}}".rstrip("0") if rest else f"{sign}{whole}"
+
+
 @lru_cache(maxsize=4096)
 def decimal_places(denominator: int) -> int | None:
     """Return how many decimals a reduced fraction over `denominator` has; None if they never end."""

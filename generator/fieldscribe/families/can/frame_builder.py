@@ -5,7 +5,6 @@ from fieldscribe.arithmetic.codec import Settings
 from fieldscribe.arithmetic.words import group_mask, insert, with_fixed, words_of
 from fieldscribe.families.can import signals
 from fieldscribe.families.can.frames import CanFrame, build, carriers, carries, identifier, request_and_answer
-from fieldscribe.families.can.notation import frame_text
 from fieldscribe.families.frame_results import BuiltFrames, Options, WriteMethod, refused
 from fieldscribe.model import Device, Message, Point
 from fieldscribe.pasted_numbers import number_of
@@ -59,7 +58,7 @@ def signal_frame(device: Device, point: Point, raw: int, unit: int | None = None
     message = next(message for message in device.messages if message.name == point.telegram)
     number, _ = signals.field_of(message, point)
     data = signals.data_of(message, {number: raw})
-    return frame_text(CanFrame(identifier(message, device.bus.usual_unit if unit is None else unit), data))
+    return CanFrame(identifier(message, device.bus.usual_unit if unit is None else unit), data).text
 
 
 def read_frame(device: Device, address: int, unit: int | None = None) -> str:
@@ -68,7 +67,7 @@ def read_frame(device: Device, address: int, unit: int | None = None) -> str:
     if message is None:
         return ""
     status, frame = build(message, device.bus.units, device.bus.usual_unit if unit is None else unit, address, 0)
-    return frame_text(frame) if status == "ok" else ""
+    return frame.text if status == "ok" else ""
 
 
 def write_frames(device: Device, point: Point, words: tuple[int, ...], unit: int | None) -> tuple[str, ...]:
@@ -82,7 +81,7 @@ def write_frames(device: Device, point: Point, words: tuple[int, ...], unit: int
         status, frame = build(message, device.bus.units, chosen, address, word)
         if status != "ok":
             raise refused(device.bus, point, status)
-        frames.append(frame_text(frame))
+        frames.append(frame.text)
     return tuple(frames)
 
 
@@ -136,7 +135,7 @@ def _telegram_text(device: Device, point: Point) -> str:
     message = carriers(device).get(point.telegram or "")
     if message is not None and message.fields:
         every = "by itself" if message.every is None else f"every {message.every} ms"
-        frame = frame_text(CanFrame(identifier(message, device.bus.usual_unit), b""))
+        frame = CanFrame(identifier(message, device.bus.usual_unit), b"").text
         return f"sent {every}, message {message.name}; {wording.bits_in_message(point)} (from CAN {frame[:-1]})"
     if message is None or not message.words:
         return ""
@@ -154,7 +153,7 @@ def _place_text(message: Message, unit: int, address: int, marks: str) -> str:
     at = [place for place, role in enumerate(message.roles) if role.kind == "word" and role.number >> 1 == word]
     known = {"unit": unit, "multiplexer": slot}
     data = bytes(role.number if role.kind == "constant" else known.get(role.kind, 0) for role in message.roles)
-    frame = frame_text(CanFrame(identifier(message, unit), data))
+    frame = CanFrame(identifier(message, unit), data).text
     mark = frame.index("#") + 1 + 2 * min(at)
     frame = f"{frame[:mark]}{marks if max(at) > min(at) else 'll'}{frame[mark + 2 * len(at) :]}"
     slots = f"multiplexer {slot}, " if carries(message, "multiplexer") else ""

@@ -1,9 +1,9 @@
 """Decodes CAN frames: cyclic telegrams, requests, and answers to the last request of each unit."""
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Hashable, Iterator, Sequence
 from functools import lru_cache
-from typing import Any
+from operator import itemgetter
+from typing import NamedTuple, TypeVar
 
 from fieldscribe.families.can import frames, signals
 from fieldscribe.families.can.frames import (
@@ -19,8 +19,8 @@ from fieldscribe.families.can.frames import (
     sums,
     unit_of,
 )
-from fieldscribe.families.can.notation import Pasted, read_frames, read_identifier
-from fieldscribe.families.decoded_frame import MOST_STATES, DecodedFrame, OpenRequests, Piece, Word
+from fieldscribe.families.can.notation import read_frames, read_identifier
+from fieldscribe.families.decoded_frame import MOST_STATES, DecodedFrame, Layout, OpenRequests, Piece, Word
 from fieldscribe.families.frame_results import FrameResult, Options
 from fieldscribe.model import Bus, Device, Message, Telegram
 from fieldscribe.text import line
@@ -31,16 +31,16 @@ from fieldscribe.wording.frames import check_text, hex_words, strange_unit
 _DAMAGED = "its words are not read, for the frame is damaged"
 _MOST_HEADS = 1024
 """The most heads of frames whose message is remembered."""
+T = TypeVar("T")
 _KINDS = {"request": "request", "response": "reply"}
 
 
-@dataclass(slots=True)
-class _Known:
-    """A head, the result of frames with it, and the last of these if it depends on nothing but itself."""
+class _Known(NamedTuple):
+    """A head, the result of frames with it, and all that is said of them if their words are not read."""
 
     head: Head
     result: FrameResult
-    last: DecodedFrame | None = None
+    unread: DecodedFrame | None
 
 
 class CanFrameDecoder:
@@ -52,69 +52,61 @@ class CanFrameDecoder:
     def __init__(self, device: Device, can_id: str | None = None) -> None:
         self._device = device
         self._identifier = None if can_id is None else read_identifier(can_id)
-        self._receiver = lru_cache(MOST_STATES)(
-            lambda message, unit: Receiver(self._telegrams[message], self._messages[message], unit)
-        )
-        self._firsts = sorted({place for message in device.messages for place in places(message, "constant")[:1]})
-        self._words = {message.name: message.words for message in device.messages}
-        self._signalled: dict[tuple[int, ...], DecodedFrame] = {}
-        """The last frame by its identifier and the places of its signals."""
-        self._crossed = {
-            message.name: _crossed(device, telegram, max(1, message.words))
-            for telegram in device.telegrams
-            for message in device.messages
-            if telegram.message == message.name
-        }
-        """By message, the multiplexers with a part of a number whose other part comes with another one."""
-        self._telling: dict[tuple[int, bytes], tuple[int, ...]] = {}
-        self._heads: dict[tuple[int, bytes, bytes], _Known | None] = {}
+        self._received = lru_cache(MOST_STATES)(self._receive)
+        self._first = _getter({place for message in device.messages for place in places(message, "constant")[:1]})
+        self._telling: dict[Hashable, Callable[[bytes], Hashable]] = {}
+        self._heads: dict[Hashable, _Known | None] = {}
+        self._last: dict[Hashable, tuple[bytes, DecodedFrame]] = {}
+        """The last frame of each layout that depends on nothing else."""
         self._telegrams = {telegram.message: telegram for telegram in reversed(device.telegrams)}
         self._messages = {message.name: message for message in device.messages}
-        self._carrying = [message for message in device.messages if message.fields]
+        self._signalled = {
+            message.name: [(Layout(self._telegrams[message.name], part), when) for part, when in signals.parts(message)]
+            for message in device.messages
+            if message.fields
+        }
+        """The layouts of the signals of a message that come together, and their selection."""
         asks = [message for message in device.messages if message.direction == "request" and carries(message, "raw")]
         writing = {message.name for message in asks}
         self._writing = writing | {message.name for message in device.messages if message.answers in writing}
         """The requests that carry a value, and the answers to them."""
 
-    def frames(self, texts: Sequence[str]) -> list[Pasted]:
+    def frames(self, texts: Sequence[str]) -> list[CanFrame]:
         """Return the frames in pasted texts. Raises UnclearError."""
         return read_frames(texts, self._identifier)
 
-    def decode(self, frame: Pasted, requests: OpenRequests, *, expecting: bool = False) -> DecodedFrame:
+    def decode(self, frame: CanFrame, requests: OpenRequests, *, expecting: bool = False) -> DecodedFrame:
         """Decode one frame; any bytes are safe."""
         del expecting  # the messages themselves say which frame answers which
-        for message in () if frame.remote else self._carrying:
-            if frames.is_of(message, self._device.bus.units, frame.frame):
-                return self._signals(message, frame)
-        known = None if frame.remote else self._known(frame.frame)
+        for name in () if frame.remote else self._signalled:
+            if frames.is_of(self._messages[name], self._device.bus.units, frame):
+                return self._signals(self._messages[name], frame)
+        known = None if frame.remote or len(frame.data) != LENGTH else self._known(frame)
         if known is None:
             return self._unknown(frame)
-        if known.last is not None and known.last.result.data == frame.frame.data:
-            return known.last
-        result = known.result._replace(data=frame.frame.data)
-        telegram = self._telegrams.get(known.head.message.name)
-        if telegram is None:
-            return self._parameter(known.head, result, frame, requests)
-        return self._cyclic(known, result, frame, telegram)
+        head, result, unread = known
+        if unread is not None:
+            return unread
+        if head.message.name in self._telegrams:
+            return self._cyclic(head, result, frame)
+        return self._parameter(head, result, frame, requests)
 
     def _known(self, frame: CanFrame) -> _Known | None:
         """Return the message of a frame, and the result of its head; None if no message fits.
 
         Both depend only on the bytes that carry no words, so they are remembered for frames that differ in words alone.
         """
-        data = frame.data
-        if len(data) != LENGTH:
-            return None  # as `recognise` does
-        beginning = frame.id, bytes([data[place] for place in self._firsts])
-        if beginning not in self._telling:
-            self._telling[beginning] = self._telling_places(frame)
-            _forget_many(self._telling)
-        key = *beginning, bytes([data[place] for place in self._telling[beginning]])
-        if key not in self._heads:
-            head = self.recognise(frame)
-            self._heads[key] = None if head is None else _Known(head, self._result(head, frame))
-            _forget_many(self._heads)
-        return self._heads[key]
+        beginning = frame.id, self._first(frame.data)
+        telling = self._telling.get(beginning)
+        if telling is None:
+            telling = _keep(self._telling, beginning, _getter(self._telling_places(frame)))
+        key = beginning, telling(frame.data)
+        if key in self._heads:
+            return self._heads[key]
+        head = self.recognise(frame)
+        result = None if head is None else self._result(head, frame)
+        known = _Known(head, result, self._unread(head, result)) if head and result else None
+        return _keep(self._heads, key, known)
 
     def _telling_places(self, frame: CanFrame) -> tuple[int, ...]:
         """Return the places of the bytes that identify the message of a frame, or that a checksum covers."""
@@ -127,8 +119,6 @@ class CanFrameDecoder:
 
     def recognise(self, frame: CanFrame) -> Head | None:
         """Return the frame as the message with the fewest flaws; None if no message fits."""
-        if len(frame.data) != LENGTH:
-            return None
         senders = [sender for sender in _senders(self._device, frame) if sender[0].roles]
         heads = [self._head(message, frame) for message, _ in senders if _fits(message, frame)]
         return min(heads, key=lambda head: head.flaws, default=None)
@@ -148,7 +138,6 @@ class CanFrameDecoder:
         text = _message_text(head, frame.id, telegram)
         details = {"can_id": frame.id, "message": message.name, **about}
         return FrameResult(
-            frame.data,
             "can",
             "cyclic" if telegram is not None else _KINDS.get(message.direction, "cyclic"),
             head.unit,
@@ -159,43 +148,57 @@ class CanFrameDecoder:
             details=details,
         )
 
-    def _cyclic(self, known: _Known, result: FrameResult, pasted: Pasted, telegram: Telegram) -> DecodedFrame:
-        head, message = known.head, known.head.message
-        if head.slot * self._words[message.name] >= (telegram.words if self._words[message.name] else 0):
-            last = -(-telegram.words // max(1, message.words)) - 1
+    def _unread(self, head: Head, result: FrameResult) -> DecodedFrame | None:
+        """Return a frame of a telegram that has no words, or is damaged; None for others."""
+        telegram, words = self._telegrams.get(head.message.name), head.message.words
+        if telegram is None:
+            return None
+        if head.slot * words >= (telegram.words if words else 0):
+            last = -(-telegram.words // max(1, words)) - 1
             return DecodedFrame(result._replace(findings=(f"the manual knows multiplexers 0 to {last} only",)))
-        if head.differences or head.wrong_sum:
-            return DecodedFrame(result._replace(notes=(_DAMAGED,)))
-        receiver = self._receiver(message.name, head.unit or 0)
-        piece = Piece(telegram, receiver.positions[head.slot], receiver.keep(head.slot, pasted.frame), receiver)
-        if head.slot in self._crossed[message.name]:
-            return DecodedFrame(result, (piece,), head.unit)
-        known.last = DecodedFrame(result, (piece,), head.unit, memo=[])
-        return known.last
+        damaged = head.differences or head.wrong_sum
+        return DecodedFrame(result._replace(notes=(_DAMAGED,))) if damaged else None
 
-    def _signals(self, message: Message, pasted: Pasted) -> DecodedFrame:
+    def _cyclic(self, head: Head, result: FrameResult, frame: CanFrame) -> DecodedFrame:
+        receiver, layouts, crossed = self._received(head.message.name, head.unit or 0)
+        layout = layouts[head.slot]
+        kept = self._last.get(layout)
+        if kept and kept[0] == frame.data:
+            return kept[1]
+        piece = Piece(layout, receiver.keep(head.slot, frame))
+        if head.slot in crossed:
+            return DecodedFrame(result, (piece,), head.unit)
+        return _keep(self._last, layout, (frame.data, DecodedFrame(result, (piece,), head.unit, memo=[])))[1]
+
+    def _receive(self, name: str, unit: int) -> tuple[Receiver, list[Layout], set[int]]:
+        """Return the receiver of a message of a unit, and the layout of the frames with each multiplexer.
+
+        The last are the multiplexers with a part of a number whose other part comes with another one.
+        """
+        telegram, points = self._telegrams[name], self._device.points
+        receiver = Receiver(telegram, self._messages[name], unit)
+        layouts = [Layout(telegram, positions, receiver) for positions in receiver.positions]
+        places = [point.addresses for point in points if point.telegram == telegram.name]
+        slots = ({address // receiver.per_frame for address in addresses} for addresses in places)
+        return receiver, layouts, {slot for here in slots if len(here) > 1 for slot in here}
+
+    def _signals(self, message: Message, frame: CanFrame) -> DecodedFrame:
         """Return the result for the signals of a message."""
-        frame, telegram = pasted.frame, self._telegrams[message.name]
-        unit = frame.id - message.identifier if message.adds_unit else None
         words = signals.words_of(message, frame.data)
+        layouts = [layout for layout, when in self._signalled[message.name] if signals.comes(message, when, words)]
+        key = frame.id, *layouts
+        kept = self._last.get(key)
+        if kept and kept[0] == frame.data:
+            return kept[1]
+        unit = frame.id - message.identifier if message.adds_unit else None
         name = f"CAN {hex_text(frame.id, 3)}{'' if unit is None else f', unit {unit}'}, {message.name}"
-        kind = _KINDS.get(message.direction, "cyclic")
         details = {"can_id": frame.id, "message": message.name}
         text = line(f"{name}: {message.title['en']}")
-        result = FrameResult(frame.data, "can", kind, unit, None, text, details=details)
-        pieces = Gathered(words)
-        parts = [part for part, when in signals.parts(message) if signals.comes(message, when, words)]
-        key = frame.id, *(part.start for part in parts)
-        last = self._signalled.get(key)
-        if last is not None and last.result.data == frame.data:
-            return last
-        contents = tuple(Piece(telegram, part, words[part.start : part.stop], pieces) for part in parts)
-        _forget_many(self._signalled)
-        decoded = self._signalled[key] = DecodedFrame(result, contents, unit, memo=[])
-        return decoded
+        result = FrameResult("can", _KINDS.get(message.direction, "cyclic"), unit, None, text, details=details)
+        pieces = tuple(Piece(layout, words[layout.positions.start : layout.positions.stop]) for layout in layouts)
+        return _keep(self._last, key, (frame.data, DecodedFrame(result, pieces, unit, memo=[])))[1]
 
-    def _parameter(self, head: Head, result: FrameResult, pasted: Pasted, requests: OpenRequests) -> DecodedFrame:
-        frame = pasted.frame
+    def _parameter(self, head: Head, result: FrameResult, frame: CanFrame, requests: OpenRequests) -> DecodedFrame:
         if head.address is None:
             return DecodedFrame(result, unit=head.unit)
         message, sound = head.message, not head.flaws
@@ -216,15 +219,14 @@ class CanFrameDecoder:
         result = result._replace(findings=findings) if findings else result
         return DecodedFrame(result, (word,), head.unit, exchange, answers=answers)
 
-    def _unknown(self, pasted: Pasted) -> DecodedFrame:
+    def _unknown(self, frame: CanFrame) -> DecodedFrame:
         """Return the result of a frame that is not a message of the device, or is incomplete."""
-        frame = pasted.frame
         text = f"CAN {hex_text(frame.id, 3)}"
         details = {"can_id": frame.id}
-        result = FrameResult(frame.data, "can", "other", None, None, text, details=details)
+        result = FrameResult("can", "other", None, None, text, details=details)
         senders = list(_senders(self._device, frame))
         if senders:
-            fault = _unknown_kind(pasted, [message for message, _ in senders])
+            fault = _unknown_kind(frame, [message for message, _ in senders])
             text, unit = f"{text}: not readable", senders[0][1]
             result = result._replace(kind="unreadable", unit=unit, summary=text, faults=(fault,))
         else:
@@ -233,28 +235,17 @@ class CanFrameDecoder:
         return DecodedFrame(result)
 
 
-@dataclass(frozen=True, slots=True)
-class Gathered:
-    """The words of all signals of a frame."""
-
-    carried: tuple[int, ...]
-    per_frame: int = 0
-
-    def words(self, positions: Sequence[int]) -> tuple[str, tuple[int, ...]]:
-        """Return ("ok", the words at these positions)."""
-        return "ok", tuple(self.carried[position] for position in positions)
+def _getter(places: Collection[int]) -> Callable[[bytes], Hashable]:
+    """Return the function that gives the bytes at these places, or without places something that data have alike."""
+    return itemgetter(*places) if places else len
 
 
-def _crossed(device: Device, telegram: Telegram, words: int) -> set[int]:
-    """Return the multiplexers with a part of a point whose other part comes with another one."""
-    points = (point for point in device.points if point.telegram == telegram.name)
-    slots = ({address // words for address in point.addresses} for point in points)
-    return {slot for here in slots if len(here) > 1 for slot in here}
-
-
-def _forget_many(kept: dict[Any, Any]) -> None:
-    if len(kept) > _MOST_HEADS:
+def _keep(kept: dict[Hashable, T], key: Hashable, value: T) -> T:
+    """Keep a value, and return it; if there are too many, the others are forgotten."""
+    if len(kept) >= _MOST_HEADS:
         kept.clear()
+    kept[key] = value
+    return value
 
 
 def decoder_of(device: Device, options: Options) -> CanFrameDecoder:
@@ -324,10 +315,9 @@ def _answer_findings(request: ParameterWord, answer: ParameterWord) -> Iterator[
         yield f"it does not repeat what was written: {was} was, {came} came back"
 
 
-def _unknown_kind(pasted: Pasted, messages: Sequence[Message]) -> str:
+def _unknown_kind(frame: CanFrame, messages: Sequence[Message]) -> str:
     """Return why none of the messages with its identifier fits a frame."""
-    frame = pasted.frame
-    if pasted.remote:
+    if frame.remote:
         return "a remote request carries no data, and the manual has none"
     due = dict.fromkeys(str(message.length) for message in messages)
     if str(len(frame.data)) not in due:

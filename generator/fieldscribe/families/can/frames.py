@@ -20,10 +20,25 @@ _STATUSES = {"constant": "wrong_constant", "unit": "wrong_unit"}
 
 
 class CanFrame(NamedTuple):
-    """A frame on the bus: its identifier and its data."""
+    """A frame on the bus; `remote` frames only ask for data. A captured frame has the time and the bus of its log."""
 
     id: int
     data: bytes
+    remote: bool = False
+    stamp: str = ""
+    bus: str = ""
+
+    @property
+    def text(self) -> str:
+        """The frame as candump logs it, and cansend takes it."""
+        identifier = "%03X" % self.id if self.id <= 0x7FF else "%08X" % self.id  # noqa: UP031  # a stream has millions
+        text = f"{identifier}#{'R' if self.remote else self.data.hex().upper()}"
+        return " ".join([part for part in (self.stamp, self.bus, text) if part])
+
+    @property
+    def details(self) -> dict[str, object]:
+        """The time and the bus of the capture, for JSON."""
+        return {"time": self.stamp.strip("()") or None, "interface": self.bus or None}
 
 
 @dataclass(frozen=True, slots=True)

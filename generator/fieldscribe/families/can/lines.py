@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.families.can.frames import LONGEST, CanFrame
-from fieldscribe.families.can.notation import Pasted, read_frames
+from fieldscribe.families.can.notation import read_frames
 from fieldscribe.families.frame_results import FrameResult
 from fieldscribe.listening.chunks import BUS_SOCKET, MESSAGE, SILENCE, SILENT, Chunk, Cut, Packet
 from fieldscribe.live.lines import LineAddress, OpenLine
@@ -68,7 +68,7 @@ class CanCutter:
 
     def take(self, chunk: Chunk) -> tuple[Cut, ...]:
         """Return the frame of a message."""
-        frame = Pasted(CanFrame(chunk.identifier, chunk.data), "", "", chunk.remote)
+        frame = CanFrame(chunk.identifier, chunk.data, chunk.remote)
         return (Cut(chunk.time, frame, chunk.data, None),)
 
     def rest(self) -> tuple[Cut, ...]:
@@ -83,9 +83,8 @@ def cutter() -> CanCutter:
 
 def packet(cut: Cut) -> Packet:
     """Return a message as a packet of SocketCAN."""
-    pasted: Pasted = cut.frame
-    identifier, data = pasted.frame.id, cut.data[:LONGEST]
-    head = identifier | (_LONG if identifier > _SHORT else 0) | (_REMOTE if pasted.remote else 0)
+    identifier, data = cut.frame.id, cut.data[:LONGEST]
+    head = identifier | (_LONG if identifier > _SHORT else 0) | (_REMOTE if cut.frame.remote else 0)
     return Packet(cut.time, BUS_SOCKET, head.to_bytes(4, "big") + bytes((len(data), 0, 0, 0)) + data)
 
 
@@ -117,10 +116,9 @@ def action(result: FrameResult) -> str:
 def chunk_of_text(text: str) -> Chunk:
     """Return the message in a line of candump. Raises HexError for a line without one."""
     try:
-        pasted = read_frames([text])[0]
+        frame = read_frames([text])[0]
     except (UnclearError, IndexError) as error:
         raise HexError(str(error)) from error
-    stamp = pasted.stamp.strip("()")
+    stamp = frame.stamp.strip("()")
     time = float(stamp) if stamp.count(".") == 1 and len(stamp) > 1 else None
-    frame = pasted.frame
-    return Chunk(time, MESSAGE, frame.data, pasted.bus, identifier=frame.id, remote=pasted.remote)
+    return Chunk(time, MESSAGE, frame.data, frame.bus, identifier=frame.id, remote=frame.remote)

@@ -1,8 +1,7 @@
-"""Reads and writes CAN frames as text: `321#DD00051513880064`, lines of candump, bytes for a known identifier."""
+"""Reads CAN frames from text: `321#DD00051513880064`, lines of candump, bytes for a known identifier."""
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from typing import NamedTuple
 
 from fieldscribe.families.can.frames import CanFrame
 from fieldscribe.pasted_numbers import HexError, parse_hex, rejoined
@@ -29,33 +28,7 @@ _ALONE = re.compile(r"\([0-9.]{1,32}\)")
 _REMOTE = re.compile(r"[Rr][0-8]?|remote request")
 
 
-class Pasted(NamedTuple):
-    """A frame with the time and the bus of its capture; `remote` frames only ask for data."""
-
-    frame: CanFrame
-    stamp: str = ""
-    bus: str = ""
-    remote: bool = False
-
-    @property
-    def text(self) -> str:
-        """The frame as candump logs it."""
-        text = frame_text(self.frame, remote=self.remote)
-        return " ".join([part for part in (self.stamp, self.bus, text) if part])
-
-    @property
-    def details(self) -> dict[str, object]:
-        """The time and the bus of the capture, for JSON."""
-        return {"time": self.stamp.strip("()") or None, "interface": self.bus or None}
-
-
-def frame_text(frame: CanFrame, *, remote: bool = False) -> str:
-    """Return a frame as candump and cansend write it."""
-    identifier = "%03X" % frame.id if frame.id <= 0x7FF else "%08X" % frame.id  # noqa: UP031  # a stream has millions
-    return f"{identifier}#{'R' if remote else frame.data.hex().upper()}"
-
-
-def read_frames(texts: Sequence[str], known: int | None = None) -> list[Pasted]:
+def read_frames(texts: Sequence[str], known: int | None = None) -> list[CanFrame]:
     """Return the frames in the arguments, one a line; `known` is the identifier of bare bytes. Raises UnclearError."""
     if len(texts) == 1 and texts[0].isprintable() and (match := _LOGGED.fullmatch(texts[0])):
         return [_matched(match)]
@@ -87,16 +60,16 @@ def _lines_of_pieces(words: list[str]) -> Iterator[str]:
         del words[:size]
 
 
-def _frame(line: str, known: int | None) -> Pasted:
+def _frame(line: str, known: int | None) -> CanFrame:
     match = _LOGGED.fullmatch(line) or _DUMPED.fullmatch(line)
     if match is not None:
         return _matched(match)
     if known is None or "#" in line:
         raise _unclear(f"`{shortened(line)}` has no identifier" if line else "there are no bytes")
-    return Pasted(CanFrame(known, _bytes(line)))
+    return CanFrame(known, _bytes(line))
 
 
-def _matched(match: re.Match[str]) -> Pasted:
+def _matched(match: re.Match[str]) -> CanFrame:
     """Return the frame in a line of candump. Raises UnclearError."""
     stamp, bus, digits, data = match.group("stamp", "bus", "id", "data")
     number = int(digits, 16)
@@ -104,8 +77,8 @@ def _matched(match: re.Match[str]) -> Pasted:
         raise _unclear(f"the identifier {number:X} is longer than 29 bits")
     stamp, bus = (stamp or "").strip(), bus or ""
     if data[:1] in "rR" and _REMOTE.fullmatch(data):
-        return Pasted(CanFrame(number, b""), stamp, bus, remote=True)
-    return Pasted(CanFrame(number, _bytes(data.replace(".", " ")) if data else b""), stamp, bus)
+        return CanFrame(number, b"", True, stamp, bus)
+    return CanFrame(number, _bytes(data.replace(".", " ")) if data else b"", False, stamp, bus)
 
 
 def _bytes(text: str) -> bytes:

@@ -41,7 +41,7 @@ class UssFrameDecoder:
         unit, words, framing = unwrapped.unit, unwrapped.words, self._framing
         head = "USS" if unit is None else f"USS, unit {unit}"
         checks, faults = remarks.checks_text(unwrapped), tuple(remarks.flaw_texts(unwrapped))
-        base = FrameResult(unwrapped.data, framing, "unreadable", unit, None, head, checks=checks, faults=faults)
+        base = FrameResult(framing, "unreadable", unit, None, head, checks=checks, faults=faults)
         if words is None:
             return DecodedFrame(base._replace(summary=f"{head}: not readable"))
         if "wrong_start" in unwrapped.flaws and len(faults) > 1:

@@ -97,13 +97,14 @@ class CanWire(Wire):
         """Return the status of a message, its identifier and its data."""
         name, *numbers = request
         status, frame = build(self.by_name[name], self.bus.units, *numbers)
-        return status, *(frame if status == "ok" else (None, None))
+        return status, *((frame.id, frame.data) if status == "ok" else (None, None))
 
     def parse(self, request: Request, answer: CanFrame) -> tuple[object, ...]:
         """Return a frame, its status as the message, its address and its raw number."""
         name, unit, *_ = request
         parsed = parse(self.by_name[name], unit, answer)
-        return *answer, parsed.status, *((parsed.address, parsed.raw) if parsed.status == "ok" else (None, None))
+        carried = (parsed.address, parsed.raw) if parsed.status == "ok" else (None, None)
+        return answer.id, answer.data, parsed.status, *carried
 
     def add_message(self, message: Message) -> None:
         """Add messages to build, good frames, and frames with another identifier, of every length, with a wrong bit."""
