@@ -13,7 +13,7 @@ from fieldscribe.targets.vectors.exchanges import Exchanges
 from fieldscribe.targets.vectors.floats import floats
 from fieldscribe.targets.vectors.frames import Wire
 from fieldscribe.targets.vectors.lines import Lines
-from fieldscribe.targets.vectors.numbers import numbers
+from fieldscribe.targets.vectors.numbers import Memory, numbers
 from fieldscribe.targets.vectors.oracle import Oracle, outer_bounds
 from fieldscribe.targets.vectors.samples import PointEncoding, PointEncodings
 from fieldscribe.targets.vectors.texts import text
@@ -44,6 +44,7 @@ class SharedVectors:
 
     def __init__(self, lines: Lines, oracle: Oracle, encodings: PointEncodings) -> None:
         self._lines, self._oracle, self._encodings = lines, oracle, encodings
+        self._conversions: Memory = {}
         self._within_limits: dict[PointEncoding, Lines] = {}
         self._beside_limits: dict[Hashable, Lines] = {}
 
@@ -67,7 +68,7 @@ class SharedVectors:
         elif shape.form == "digits":
             digits(lines, shape)
         else:
-            numbers(lines, oracle, encoding, deep=deep)
+            numbers(lines, oracle, encoding, self._conversions, deep=deep)
         if shape.display is not None:
             displayed(lines, oracle, encoding, deep=deep)
         names(lines, shape, deep=deep)

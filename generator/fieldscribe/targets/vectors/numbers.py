@@ -1,6 +1,7 @@
 """Vectors of numbers: raw numbers, their values in binary64, and their counts of 10^-decimals units."""
 
 from collections.abc import Callable, Iterable, Iterator
+from functools import cache
 from math import inf, isfinite, isnan, nan, nextafter
 from typing import Any
 
@@ -26,7 +27,11 @@ Asked = tuple[str, Callable[[Any], str], Iterable[Any]]
 """A kind of vector, the function that answers what is asked, and what is asked."""
 
 
-def numbers(lines: Lines, oracle: Oracle, encoding: PointEncoding, *, deep: bool) -> None:
+Memory = dict[tuple[int, Ratio], "Conversions"]
+"""The conversions so far, by shape and ratio."""
+
+
+def numbers(lines: Lines, oracle: Oracle, encoding: PointEncoding, memory: Memory, *, deep: bool) -> None:
     """Add vectors of a number for each setting of the points that it needs; fewer unless `deep`."""
     shape, full = encoding.shape, deep
     kinds = _kinds(shape)
@@ -40,7 +45,9 @@ def numbers(lines: Lines, oracle: Oracle, encoding: PointEncoding, *, deep: bool
         elif isinstance(limits, str):
             asked = _without_limits(encoding, ratio, limits)
         else:
-            asked = _Numbers(encoding, ratio, limits).asked(deep=deep, full=full)
+            if (key := (id(shape), ratio)) not in memory:
+                memory[key] = Conversions(shape, ratio)
+            asked = _Numbers(encoding, memory[key], limits).asked(deep=deep, full=full)
             full = full and shape.form != "scaled"
         for kind, answer, samples_of_kind in asked:
             if kinds[kind]:
@@ -85,32 +92,18 @@ def code_answer(shape: Shape, raw: int) -> str:
     return "" if code is None else f"special\t-\t{text(code.name)}"
 
 
-class _Numbers:
-    """The right answers for an encoding under one setting that allows computing."""
+class Conversions:
+    """Converts between raw numbers, values and counts of one shape under one ratio; remembers each number.
 
-    def __init__(self, encoding: PointEncoding, ratio: Ratio, limits: samples.Limits) -> None:
-        self.encoding, self.shape, self.ratio, self.limits = encoding, encoding.shape, ratio, limits
-        self.under, self.tens = ratio.denominator, 10 ** (encoding.shape.decimals or 0)
-        self.ends = [self._count(raw) for raw in (encoding.shape.least, encoding.shape.greatest)]
+    It knows no limits, so points with different limits share it.
+    """
 
-    def asked(self, *, deep: bool, full: bool) -> Iterator[Asked]:
-        """Yield what is asked; `full` for the first setting of the first encoding that is computed in this way."""
-        encoding, shape, limits = self.encoding, self.shape, self.limits
-        decoded = samples.raws_to_decode(encoding, limits, deep=deep)
-        checked = samples.raws_to_check(encoding, limits, deep=deep)
-        edges = samples.edges(limits if deep else samples.limits_to_try(limits))
-        counted = [*edges, *samples.codes(shape)] if deep else [*edges]
-        if shape.form != "scaled":
-            if deep:
-                decoded = checked = [*checked, *decoded]
-                counted += (shape.least - 1, shape.greatest + 1)
-            counted += decoded
-        yield "decode", self._decode, [*decoded, *samples.raws_telling_division(shape, self.ratio)]
-        yield "decode_count", self._decode_count, [*decoded, *self._widest()]
-        yield "encode", self._encode, self._values(counted, deep=deep, full=full)
-        yield "encode_count", self._encode_count, self._counts(counted, deep=deep, full=full)
-        if full or not deep or encoding.allowed.arguments:
-            yield "check", self._check, checked
+    def __init__(self, shape: Shape, ratio: Ratio) -> None:
+        self.shape, self.ratio, self.under, self.tens = shape, ratio, ratio.denominator, 10 ** (shape.decimals or 0)
+        self.decode, self.decode_count, self.count = cache(self._decode), cache(self._decode_count), cache(self._count)
+        self.raw_of_value = cache(ratio.raw_of_float)
+        self.raw_of_count = cache(lambda count: ratio.raw_of_count(count, shape.decimals or 0))
+        self.ends = [self.count(raw) for raw in (shape.least, shape.greatest)]
 
     def _decode(self, raw: int) -> str:
         """Return status and value; empty if languages may differ in the last place."""
@@ -124,20 +117,54 @@ class _Numbers:
 
     def _decode_count(self, raw: int) -> str:
         """Return status and count; empty for an integer of 64 bits whose sign languages see differently."""
-        shape, count = self.shape, self._count(raw)
+        shape, count = self.shape, self.count(raw)
         if shape.specials and (special := code_answer(shape, raw)):
             return special
         if -INT64 <= count < INT64 and not self._is_too_large(raw):
             return f"ok\t{count}"
         return "overflow" if shape.form == "scaled" else ""
 
+    def _count(self, raw: int) -> int:
+        return half_away(self.ratio.numerator(raw) * self.tens, self.under)
+
+    def _is_too_large(self, raw: int) -> bool:
+        """Return True if a raw number is too large to compute with."""
+        most = self.shape.most_raw
+        return most is not None and abs(raw) > most
+
+
+class _Numbers:
+    """The right answers for an encoding under one setting that allows computing, and what is asked."""
+
+    def __init__(self, encoding: PointEncoding, by: Conversions, limits: samples.Limits) -> None:
+        self.encoding, self.shape, self.by, self.ratio, self.limits = encoding, encoding.shape, by, by.ratio, limits
+
+    def asked(self, *, deep: bool, full: bool) -> Iterator[Asked]:
+        """Yield what is asked; `full` for the first setting of the first encoding that is computed in this way."""
+        encoding, shape, limits = self.encoding, self.shape, self.limits
+        decoded = samples.raws_to_decode(encoding, limits, deep=deep)
+        checked = samples.raws_to_check(encoding, limits, deep=deep)
+        edges = samples.edges(limits if deep else samples.limits_to_try(limits))
+        counted = [*edges, *samples.codes(shape)] if deep else [*edges]
+        if shape.form != "scaled":
+            if deep:
+                decoded = checked = [*checked, *decoded]
+                counted += (shape.least - 1, shape.greatest + 1)
+            counted += decoded
+        yield "decode", self.by.decode, [*decoded, *samples.raws_telling_division(shape, self.ratio)]
+        yield "decode_count", self.by.decode_count, [*decoded, *self._widest()]
+        yield "encode", self._encode, self._values(counted, deep=deep, full=full)
+        yield "encode_count", self._encode_count, self._counts(counted, deep=deep, full=full)
+        if full or not deep or encoding.allowed.arguments:
+            yield "check", self._check, checked
+
     def _encode(self, value: float) -> str:
         if not isfinite(value):
             return "not_a_number" if isnan(value) else "out_of_range"
-        return self._put(self.ratio.raw_of_float(value))
+        return self._put(self.by.raw_of_value(value))
 
     def _encode_count(self, count: int) -> str:
-        return self._put(self._raw_of_count(count))
+        return self._put(self.by.raw_of_count(count))
 
     def _put(self, raw: int | None) -> str:
         """Return the status of a raw number that was computed, and the raw number if it may be written."""
@@ -153,24 +180,13 @@ class _Numbers:
         fits = shape.fixed is None or self.encoding.with_fixed(raw) == raw or code_of(shape, raw) is not None
         return admit(shape, raw, self.limits) if fits else "out_of_range"
 
-    def _count(self, raw: int) -> int:
-        return half_away(self.ratio.numerator(raw) * self.tens, self.under)
-
-    def _raw_of_count(self, count: int) -> int:
-        return self.ratio.raw_of_count(count, self.shape.decimals or 0)
-
-    def _is_too_large(self, raw: int) -> bool:
-        """Return True if a raw number is too large to compute with."""
-        most = self.shape.most_raw
-        return most is not None and abs(raw) > most
-
     def _values(self, raws: Iterable[int], *, deep: bool, full: bool) -> Iterator[float]:
         """Yield the values of raw numbers, those a quarter of a step beyond the limits, halves, and no numbers."""
         ratio, low, high = self.ratio, self.limits[0][0], self.limits[-1][1]
         step = ratio.numerator(1) - ratio.numerator(0)
         quarters = [4 * ratio.numerator(raw) for raw in raws]
         quarters += [4 * ratio.numerator(low) - step, 4 * ratio.numerator(high) + step]
-        yield from (quotient(over, 4 * self.under) for over in quarters)
+        yield from (quotient(over, 4 * self.by.under) for over in quarters)
         for half in samples.halves(ratio, self.limits) if deep else ():
             yield from (half, nextafter(half, 0.0))
         if full:
@@ -179,30 +195,32 @@ class _Numbers:
     def _counts(self, raws: Iterable[int], *, deep: bool, full: bool) -> Iterator[int]:
         """Yield the counts of raw numbers, around halves, and the ends of integers, as far as they hold the type."""
         narrow = (
-            all(-INT32 <= end < INT32 for end in self.ends) if self.shape.form == "scaled" else self.shape.width <= 16
+            all(-INT32 <= end < INT32 for end in self.by.ends)
+            if self.shape.form == "scaled"
+            else self.shape.width <= 16
         )
         edge = INT32 if narrow else INT64  # the first count beyond the integers that hold all counts of the type
-        counts = [*map(self._count, raws), *(self._halves() if deep else ())]
+        counts = [*map(self.by.count, raws), *(self._halves() if deep else ())]
         if full:
             counts += [INT32 - 1, -INT32, edge - 1, -edge]
         yield from (count for count in counts if -edge <= count < edge)
 
     def _halves(self) -> Iterator[int]:
         """Yield the counts around the halves at the outer limits; none where each count is a raw number."""
-        ratio, power = self.ratio, self.tens
-        if self.under == power * abs(ratio.den) * ratio.under:
+        ratio, power = self.ratio, self.by.tens
+        if self.by.under == power * abs(ratio.den) * ratio.under:
             return
         low, high = self.limits[0][0], self.limits[-1][1]
         for raw in (low - 1, low, high - 1, high):
             over = (ratio.numerator(raw) + ratio.numerator(raw + 1)) * power
-            below, rest = divmod(over, 2 * self.under)
+            below, rest = divmod(over, 2 * self.by.under)
             yield from (below, below + 1) if rest else (below - 1, below + 1, below)
 
     def _widest(self) -> list[int]:
         """Return the raw numbers around the first counts of more than 64 bits."""
         shape = self.shape
-        if all(-INT64 <= end < INT64 for end in self.ends):
+        if all(-INT64 <= end < INT64 for end in self.by.ends):
             return []
-        last = (self._raw_of_count(count) for count in (INT64 - 1, -INT64))
+        last = (self.by.raw_of_count(count) for count in (INT64 - 1, -INT64))
         raws = (raw + more for raw in last for more in (-1, 0, 1))
         return [raw for raw in raws if shape.least <= raw <= shape.greatest]
