@@ -41,7 +41,7 @@ def outputs(
     own, bus = header_context(device, points, scope), frames_of(device).header(device, points, scope)
     context, sections = {"device": own, "bus": bus.context, "exchanges": exchanges}, bus.sections
     yield f"c/{device.id}.h", header(device, own, points, scope, render)
-    if not exchanges and not frames_of(device).HAS_FACTS:
+    if not exchanges and not frames_of(device).has_facts:
         return
     texts = {name: section.text(render, scope if exchanges else None) for name, section in sections.items()}
     frames_text = framed(render, f"c/{device.family}.h.j2", context, texts)
@@ -65,7 +65,7 @@ def runtime(device: Device, *, tests: bool = True, frames: FramesPart = "all") -
     """Yield the source files beside them: path below the output folder, and path below the templates."""
     names = ["fieldscribe.h"]
     names += ["fieldscribe_dates.h"] * has_dates(device)
-    names += [f"fieldscribe_{device.family}_facts.h"] * frames_of(device).HAS_FACTS
+    names += [f"fieldscribe_{device.family}_facts.h"] * frames_of(device).has_facts
     names += [f"fieldscribe_{device.family}_steps.h"] * bool(device.stepped_commands)
     names += [f"fieldscribe_{device.family}.h"] * (frames != "constants")
     identifies = frames != "constants" and frames_of(device).identifies(device)

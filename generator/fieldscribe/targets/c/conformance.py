@@ -27,7 +27,7 @@ def suite_context(device: Device, points: Sequence[GeneratedPoint], scope: Heade
     function gives the name. `documented` are points that are reached raw only: item, space, the prefix of their macros,
     and whether they have an index.
     """
-    prefix, capitals, named = scope.prefix, scope.upper, frames_of(device).NAMED_CODES
+    prefix, capitals, named = scope.prefix, scope.upper, frames_of(device).named_codes
     emitted = [codes for codes in family(device.family).codes if codes.emitted and device.bus.codes(codes.section)]
     return {
         "family": device.family,

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import chain
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 from fieldscribe.arithmetic.words import group_mask, mask_of
 from fieldscribe.families import family
@@ -151,25 +152,25 @@ def frames_header(
     return FramesHeader({**shared, **context}, sections, names)
 
 
-class CFamily(Protocol):
-    """The part `targets.c` of a family. Its template and its runtime have the family's name."""
+@dataclass(frozen=True, slots=True)
+class CFamily:
+    """The object `IN_C` of the part `targets.c` of a family. Its template and its runtime have the family's name.
 
-    NAMED_CODES: tuple[str, ...]
-    """The kinds of codes that have a function for their names."""
+    `header` returns the header of frames, `<family>.h.j2`. `named_codes` are the kinds of codes that have a function
+    for their names. `has_facts` is True if the runtime's types are in a header of their own, which constants need
+    without its functions. `identifies` returns True if a call tells the device and its variants, for which the runtime
+    has a header of its own; else the program reads what tells the device.
+    """
 
-    HAS_FACTS: bool
-    """True if the runtime's types are in a header of their own, which constants need without its functions."""
-
-    def header(self, device: Device, points: Sequence[GeneratedPoint], scope: HeaderScope) -> FramesHeader:
-        """Return the header of frames, `<family>.h.j2`."""
-
-    def identifies(self, device: Device) -> bool:
-        """Return True if a call tells the device and its variants, for which the runtime has a header of its own."""
+    header: Callable[[Device, Sequence[GeneratedPoint], HeaderScope], FramesHeader]
+    named_codes: tuple[str, ...] = ()
+    has_facts: bool = False
+    identifies: Callable[[Device], bool] = lambda _: False
 
 
 def frames_of(device: Device) -> CFamily:
     """Return the part `targets.c` of the device's family."""
-    offered: CFamily = family(device.family).part("targets.c")
+    offered: CFamily = family(device.family).part("targets.c").IN_C
     return offered
 
 

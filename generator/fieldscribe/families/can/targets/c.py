@@ -14,15 +14,6 @@ from fieldscribe.targets.c.views import PointView
 from fieldscribe.targets.identifiers import Named, Owner
 from fieldscribe.text import c_comment, upper
 
-NAMED_CODES: tuple[str, ...] = ()
-HAS_FACTS = False
-
-
-def identifies(device: Device) -> bool:
-    """Return False: the program reads what tells the device."""
-    del device
-    return False
-
 
 @dataclass(frozen=True, slots=True)
 class MessageView:
@@ -293,3 +284,6 @@ def _frame(point: Point, view: PointView, ways: str, parts: list[str], cases: It
     kind = f"fieldscribe_can_{'text_' if text else ''}{ways}"
     layout_cases = [] if text else [f"LIES({name}, {frames.lies(point)})"]
     return frames.Frame((frames.Descriptor(kind, name, f"{{{', '.join(parts)}}}", "_frame"),), (*layout_cases, *cases))
+
+
+IN_C = frames.CFamily(header)

@@ -10,18 +10,8 @@ from fieldscribe.families.modbus import BIT_LISTS, FUNCTIONS, SPACES, Profile, p
 from fieldscribe.families.modbus.targets.c_selections import Selections
 from fieldscribe.families.modbus.targets.identification import IdentifyView, can_identify, names_of_call
 from fieldscribe.model import Base, Block, Command, Device, Found, Point, SteppedCommand
+from fieldscribe.targets.c import frames
 from fieldscribe.targets.c.calls import Transfer
-from fieldscribe.targets.c.frames import (
-    Descriptor,
-    Frame,
-    Frames,
-    FramesHeader,
-    Layouts,
-    exceptions_of,
-    frames_header,
-    kind_of,
-    lies,
-)
 from fieldscribe.targets.c.groups import Members, Part, StructView, facts_of, has_row, is_written_by_row
 from fieldscribe.targets.c.layout import called
 from fieldscribe.targets.c.point_templates import GeneratedPoint
@@ -98,10 +88,6 @@ def stepped_views(commands: tuple[SteppedCommand, ...], scope: HeaderScope) -> l
     ]
 
 
-NAMED_CODES: tuple[str, ...] = ()
-HAS_FACTS = True
-
-
 def identifies(device: Device) -> bool:
     """Return True if a call tells the device and its variants."""
     most = profile_of(device.bus).most
@@ -149,15 +135,15 @@ class BaseView:
 class CommandView:
     """A command: a write of a constant, with a name."""
 
-    descriptor: Descriptor
+    descriptor: frames.Descriptor
     comment: str
     defines: tuple[Define, ...]
 
 
-def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope) -> FramesHeader:
+def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope) -> frames.FramesHeader:
     """Return the header of frames, `<device>_modbus.h`."""
     profile = profile_of(device.bus)
-    layouts = Layouts(scope)
+    layouts = frames.Layouts(scope)
     counts = [block.count for blocks in device.blocks.values() for block in blocks]
     by_name: dict[str, list[GeneratedPoint]] = {}
     for each in placed:
@@ -173,8 +159,8 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
     selections = Selections(device, profile, scope, bool(device.selecting))
     started = [base for base in device.bases if base.starts_block]
     ids = [(f"{scope.upper}_{upper(base.name)}", unsigned(base.block), base.name) for base in started]
-    frames = Frames(
-        placed, lambda point, view: _frame(point, view, profile, layouts, selections) if point.place.addresses else None
+    of_points = frames.Frames(
+        placed, lambda point, view: _frame(point, view, layouts, selections) if point.place.addresses else None
     )
     most = [unsigned(profile.most.get(number, 0)) for number in sorted(FUNCTIONS)] if profile.most else []
     to_all = sum(1 << number for number in profile.broadcasts & profile.most.keys())
@@ -200,10 +186,10 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
         for each in stepped:
             yield Owner("command", each.command.name), each.names
 
-    return frames_header(
+    return frames.frames_header(
         device,
         layouts,
-        {"frames": frames},
+        {"frames": of_points},
         chain(identifiers(), names_of_call(identify)),
         most=", ".join(most),
         to_all=hexadecimal(to_all),
@@ -223,7 +209,7 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
         commands=commands,
         stepped=stepped,
         identify=identify,
-        exceptions=exceptions_of(device, scope),
+        exceptions=frames.exceptions_of(device, scope),
     )
 
 
@@ -282,12 +268,13 @@ def _bool(value: bool) -> str:
     return "true" if value else "false"
 
 
-def _frame(point: Point, view: PointView, profile: Profile, layouts: Layouts, selections: Selections) -> Frame | None:
+def _frame(point: Point, view: PointView, layouts: frames.Layouts, selections: Selections) -> frames.Frame | None:
     """Return the requests of a point; None if no function of the device reaches it.
 
     A point that shares its word cannot be written if its word cannot be read. Nothing writes one alone that the device
     takes with others only.
     """
+    profile = selections.profile
     read = SPACES[point.space].read if point.readable and point.space in SPACES else 0
     write = profile.write_function(point.space, point.words) if point.writable and point.space in SPACES else 0
     read = read if profile.most.get(read, 0) >= point.words else 0
@@ -302,7 +289,7 @@ def _frame(point: Point, view: PointView, profile: Profile, layouts: Layouts, se
     transfers = _transfer(read, address, point.words), _transfer(write, to, point.words), "", point.base or "", is_plain
     transfer = Transfer("modbus") if selected is None else Transfer("modbus", *transfers, selected)
     if layouts.scope.calls_only and not text:
-        return Frame((), (), transfer)
+        return frames.Frame((), (), transfer)
     text_place = f"{{{view.function}_addresses, {address}, {point.words}U}}"
     parts = [text_place if text else layouts.of(point, places_of(point))]
     parts += [
@@ -310,10 +297,10 @@ def _frame(point: Point, view: PointView, profile: Profile, layouts: Layouts, se
     ]
     access = f"{'r' if read else ''}{('w' if point.bits is None else 'u') if write else ''}"
     kind = f"fieldscribe_modbus_{'text_' if text else ''}{access}"
-    descriptor = Descriptor(kind, name, f"{{{', '.join(parts)}}}", "_frame")
+    descriptor = frames.Descriptor(kind, name, f"{{{', '.join(parts)}}}", "_frame")
     row = partial(_row, view, parts[0], access, layouts.scope) if has_row(view) and not point.selects else None
     cases = ("NO_FUNCTION",) if selected is None else tuple(_cases(point, view, access, selected))
-    return Frame((descriptor,), cases, transfer, row)
+    return frames.Frame((descriptor,), cases, transfer, row)
 
 
 def _row(view: PointView, layout: str, access: str, scope: HeaderScope) -> str:
@@ -341,9 +328,9 @@ def _cases(point: Point, view: PointView, access: str, selected: str) -> Iterato
         yield f'AT_BASE(fieldscribe_modbus_{"text_" if text else ""}{access}, {name}, "{point.base}")'
         yield from (f"{word}_AT_BASE" for letter, word in _MOVED.items() if letter in access)
         name = "moved"
-    what = f"{name}, {point.words}U" if text else f"{name}, {kind_of(view)}, {view.raw_type}"
+    what = f"{name}, {point.words}U" if text else f"{name}, {frames.kind_of(view)}, {view.raw_type}"
     if not text:
-        yield f"LIES({name}, {lies(point)})"
+        yield f"LIES({name}, {frames.lies(point)})"
     for letter, way in (("r", "READ"), ("w", "WRITE"), ("u", "UPDATE")):
         if letter in access:
             yield f"{way}{'_TEXT' if text else ''}({what})"
@@ -378,9 +365,12 @@ def _command(command: Command, scope: HeaderScope) -> CommandView:
     if command.wears is not None:
         comment += f"; the memory is rated for {command.wears} writes"
     defines = ((f"{macro}_ADDRESS", hexadecimal(command.address)), (f"{macro}_VALUE", value))
-    descriptor = Descriptor(
+    descriptor = frames.Descriptor(
         "fieldscribe_modbus_command",
         f"{scope.prefix}_command_{command.name}",
         f"{{{{{unsigned(command.function)}, {macro}_ADDRESS, 1U}}, {macro}_VALUE}}",
     )
     return CommandView(descriptor, f"{comment}.", defines)
+
+
+IN_C = frames.CFamily(header, has_facts=True, identifies=identifies)

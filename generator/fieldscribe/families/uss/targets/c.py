@@ -6,8 +6,8 @@ from fieldscribe.families import Codes
 from fieldscribe.families.uss import FAMILY, of_bus
 from fieldscribe.families.uss.parts import READ_ELEMENT_TASK, READ_TASK, write_task
 from fieldscribe.model import Code, Device, Point
+from fieldscribe.targets.c import frames
 from fieldscribe.targets.c.calls import Transfer
-from fieldscribe.targets.c.frames import Descriptor, Frame, Frames, FramesHeader, Layouts, frames_header, kind_of, lies
 from fieldscribe.targets.c.point_templates import GeneratedPoint
 from fieldscribe.targets.c.scope import HeaderScope, hexadecimal
 from fieldscribe.targets.c.views import PointView
@@ -15,17 +15,8 @@ from fieldscribe.targets.c.word_functions import places_of
 from fieldscribe.targets.identifiers import Named, Owner
 from fieldscribe.text import c_comment, c_string, upper
 
-NAMED_CODES = tuple(codes.kind for codes in FAMILY.codes)
-HAS_FACTS = False
 
-
-def identifies(device: Device) -> bool:
-    """Return False: the program reads what tells the device."""
-    del device
-    return False
-
-
-def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope) -> FramesHeader:
+def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope) -> frames.FramesHeader:
     """Return the header of frames, `<device>_uss.h`; `frames` read and write parameters, `words` are process data."""
     bus = device.bus
     telegrams = {telegram.name for telegram in device.telegrams}
@@ -33,14 +24,14 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
     numbers = [each for each in placed if each.point.addresses and each.point.text is None]
     parameters = [each for each in numbers if each.point.space == "parameter"]
     process_data = [each for each in numbers if each.point.telegram in telegrams and each.point.words <= 2]
-    layouts = Layouts(scope)
-    frames = Frames(parameters, lambda point, view: _frame(point, view, tasks, layouts))
-    words = Frames(process_data, lambda point, view: _word(point, view, layouts, scope))
+    layouts = frames.Layouts(scope)
+    of_points = frames.Frames(parameters, lambda point, view: _frame(point, view, tasks, layouts))
+    words = frames.Frames(process_data, lambda point, view: _word(point, view, layouts, scope))
     kinds = [kind for kind in FAMILY.codes if bus.codes(kind.section)]
-    return frames_header(
+    return frames.frames_header(
         device,
         layouts,
-        {"frames": frames, "words": words},
+        {"frames": of_points, "words": words},
         _identifiers(device, kinds, scope),
         broadcast="FIELDSCRIBE_USS_NO_BROADCAST" if bus.broadcast is None else hexadecimal(bus.broadcast, 2),
         pkw=of_bus(bus).pkw,
@@ -83,7 +74,7 @@ def _codes(kind: Codes, codes: tuple[Code, ...], scope: HeaderScope) -> dict[str
     return {"title": f"{kind.kind.capitalize()}s", "function": _name_function(kind, scope), "entries": entries}
 
 
-def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: Layouts) -> Frame | None:
+def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: frames.Layouts) -> frames.Frame | None:
     """Return the tasks of a parameter; None if no task of the device reaches it."""
     if point.info.bits > 32:
         return None
@@ -97,16 +88,16 @@ def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: Layout
     changes = "w" if point.bits is None else "u"
     layout = layouts.of(point, range(width))
 
-    def descriptor(tail: str, ways: list[tuple[int, str]]) -> Descriptor:
+    def descriptor(tail: str, ways: list[tuple[int, str]]) -> frames.Descriptor:
         places = [f"{{{task}U, {view.fields.number}U, {point.index or 0}U, {width}U}}" for task, _ in ways]
         kind = f"fieldscribe_uss_{''.join(way for _, way in ways)}"
-        return Descriptor(kind, view.function + tail, f"{{{', '.join((layout, *places))}}}", tail)
+        return frames.Descriptor(kind, view.function + tail, f"{{{', '.join((layout, *places))}}}", tail)
 
     ways = [*((task, "r") for task in reading), *((task, changes) for task in writing)]
     descriptors = [descriptor("_frame", ways)] if ways else []
     descriptors += [descriptor("_eeprom_frame", [(task, changes) for task in storing])] if storing else []
-    cases = [f"LIES({descriptor.name}, {lies(point)})" for descriptor in descriptors]
-    name, what = f"{view.function}_frame", f"{kind_of(view)}, {view.raw_type}"
+    cases = [f"LIES({descriptor.name}, {frames.lies(point)})" for descriptor in descriptors]
+    name, what = f"{view.function}_frame", f"{frames.kind_of(view)}, {view.raw_type}"
     if reading:
         cases.append(f"READ({name}, {what})")
     for kind, tail in [*(("write", "_frame") for _ in writing), *(("store", "_eeprom_frame") for _ in storing)]:
@@ -118,21 +109,24 @@ def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: Layout
     calls = ((reading, "_frame"), (writing and changes_word, "_frame"), (storing and changes_word, "_eeprom_frame"))
     read, write, store = (f"{view.function}{tail}" if tasks else "" for tasks, tail in calls)
     transfer = Transfer("uss", read, write, store)
-    return Frame(tuple(descriptors), tuple(cases), transfer)
+    return frames.Frame(tuple(descriptors), tuple(cases), transfer)
 
 
-def _word(point: Point, view: PointView, layouts: Layouts, scope: HeaderScope) -> Frame:
+def _word(point: Point, view: PointView, layouts: frames.Layouts, scope: HeaderScope) -> frames.Frame:
     """Return the place of a point in the words of process data."""
-    name, what = f"{view.function}_frame", f"{kind_of(view)}, {view.raw_type}"
+    name, what = f"{view.function}_frame", f"{frames.kind_of(view)}, {view.raw_type}"
     position = f"{{{view.fields.number}U, {point.words}U}}"
     ways = f"{'h' if point.readable else ''}{'s' if point.writable else ''}"
     value = f"{{{', '.join((layouts.of(point, places_of(point)), *[position] * len(ways)))}}}"
     words = f"{view.macro}, {scope.upper}_TELEGRAM_{upper(point.telegram or '')}_WORDS"
-    cases = [f"LIES({name}, {lies(point)})"]
+    cases = [f"LIES({name}, {frames.lies(point)})"]
     if point.writable:
         cases += [f"SEND({name}, {what})", f"PUT({name}, {what}, {words})"]
     if point.readable:
         cases.append(f"TAKE({name}, {what}, {words})")
     if point.readable and not point.writable:
         cases.append(f"HEAR({name}, {what})")
-    return Frame((Descriptor(f"fieldscribe_uss_{ways}", name, value, "_frame"),), tuple(cases))
+    return frames.Frame((frames.Descriptor(f"fieldscribe_uss_{ways}", name, value, "_frame"),), tuple(cases))
+
+
+IN_C = frames.CFamily(header, named_codes=tuple(codes.kind for codes in FAMILY.codes))
