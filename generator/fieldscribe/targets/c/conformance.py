@@ -154,23 +154,13 @@ def _conversion_cases(view: PointView, scope: HeaderScope) -> Iterator[str]:
 
 
 def _text_cases(view: PointView) -> Iterator[str]:
-    if view.point.text is not None and view.point.text.parts:
-        yield from [f"DATE_DECODE({view.function}, {view.macro})"] * view.point.readable
-        yield from [f"DATE_ENCODE({view.function}, {view.macro})"] * view.point.writable
-        return
-    if view.point.text is not None and view.point.text.is_bytes:
-        yield from [f"BYTES_DECODE({view.function}, {view.macro})"] * view.point.readable
-        yield from [f"BYTES_ENCODE({view.function}, {view.macro})"] * view.point.writable
-        return
-    if view.point.text is not None and view.point.text.is_unicode:
-        size = f"{view.point.text.most_bytes}U"
-        yield from [f"UNICODE_DECODE({view.function}, {view.macro}, {size})"] * view.point.readable
-        yield from [f"UNICODE_ENCODE({view.function}, {view.macro})"] * view.point.writable
-        return
+    text = view.point.text
+    assert text is not None
+    kind = "DATE" if text.parts else "BYTES" if text.is_bytes else "UNICODE" if text.is_unicode else "TEXT"
     if view.point.readable:
-        yield f"TEXT_DECODE({view.function}, {view.macro})"
+        yield f"{kind}_DECODE({view.function}, {view.macro}{f', {text.most_bytes}U' if text.is_unicode else ''})"
     if view.point.writable:
-        yield f"TEXT_ENCODE({view.function}, {view.macro})"
+        yield f"{kind}_ENCODE({view.function}, {view.macro})"
 
 
 def _digits_cases(view: PointView) -> Iterator[str]:
