@@ -55,7 +55,7 @@ def test_who_waits_is_told_within_a_second(tmp_path: Path, monkeypatch: pytest.M
     monkeypatch.setattr(time, "sleep", lambda _: None)
     monkeypatch.setattr(lock, "_try_lock", lambda _: None)
     with (
-        pytest.raises(TimeoutError, match="for 60 seconds"),
+        pytest.raises(TimeoutError, match=r"\] another run has been writing there for 60 seconds: "),
         only_run(tmp_path, lambda: printed.append(next(hours)), 60.0),
     ):
         raise AssertionError("locked")

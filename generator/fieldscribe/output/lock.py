@@ -108,7 +108,7 @@ def _open(place: Path) -> int:
     try:
         return os.open(place, _FLAGS | os.O_RDWR, 0o666)
     except PermissionError:
-        return os.open(place, _FLAGS | os.O_RDONLY)  # another user's file: a lock needs no permission to write
+        return os.open(place, _FLAGS)  # to read, another user's file: a lock needs no permission to write
 
 
 def _flock(handle: int) -> bool:

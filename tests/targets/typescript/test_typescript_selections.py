@@ -68,3 +68,5 @@ def test_what_is_written_in_one_request_alone(line: Windowed, node: NodeDevice) 
         node(None, "writeTogether", {"clockHour": 12, "clockMinute": 61})
     node(None, "writeTogether", {"clockHour": 12, "clockMinute": 30})
     assert (line.held[120], line.held[121], line.sent) == (30, 12, [])
+    node(None, "writeTogether", {"page": 2})
+    assert line.sent == [(PAGE, 2)], "one alone, as it has no partner"
