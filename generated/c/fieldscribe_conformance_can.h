@@ -504,9 +504,13 @@ static void fieldscribe_feed(fieldscribe_vector *v, fieldscribe_can_receiver *re
     const size_t count = fieldscribe_numbers(v, "taken", expected_taken, FIELDSCRIBE_BYTES_MOST);
     const char *at = fieldscribe_field(v, "frames");
     size_t fed = 0U;
+    size_t part;
+    uint16_t words[FIELDSCRIBE_CAN_WORDS];
     fieldscribe_can_frame frame;
     while (fed < (size_t)FIELDSCRIBE_BYTES_MOST && fieldscribe_next_frame(&at, &frame)) {
         taken[fed] = fieldscribe_can_take(receiver, &frame, (uint32_t)fed) ? 1U : 0U;
+        fieldscribe_agree(v,
+            fieldscribe_can_unpack(receiver->telegram, receiver->unit, &frame, &part, words) == (taken[fed] != 0U));
         if (taken[fed] != 0U) {
             fieldscribe_has_no_such_unit(v, receiver, &frame);
             fieldscribe_finds_the_frame(v, receiver, &frame);

@@ -317,6 +317,11 @@ def test_a_rename_keeps_its_old_name(diff: Diff) -> None:
     ("before", "after", "kept"),
     [
         ("- {name: a, at: 1}\n", "- {name: b, was: [c], at: 1}\n", "- {name: b, was: [a, c], at: 1}\n"),
+        ("- {name: a, at: 1}\n", "- {name: b, was: [a], at: 1}\n", "- {name: b, was: [a], at: 1}\n"),
+        (
+            "- {name: a, at: 1}\n- {name: z, at: 2, access: r}\n",
+            *("- {name: b, at: 1}\n- {name: z, at: 2}\n", "- {name: b, was: [a], at: 1}\n- {name: z, at: 2}\n"),
+        ),
         ("- name: a\n  at: 1\n", "- name: b\n  was:\n  - c\n  at: 1\n", "- name: b\n  was:\n  - a\n  - c\n  at: 1\n"),
         ("- at: 1\n  name: a\n", '- at: 1\n  name: "b"', '- at: 1\n  name: "b"\n  was: [a]\n'),
         ("- name: a\r\n  at: 1\r\n", "- name: b\r\n  at: 1\r\n", "- name: b\r\n  was: [a]\r\n  at: 1\r\n"),

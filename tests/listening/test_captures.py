@@ -10,7 +10,7 @@ from random import Random
 
 import pytest
 from fieldscribe.listening.captures import chunks_of
-from fieldscribe.listening.chunks import BYTES, MESSAGE, STREAM, ByteCutter, Chunk, Packet
+from fieldscribe.listening.chunks import BYTES, MESSAGE, STREAM, ByteCutter, Chunk, Packet, timed
 from fieldscribe.listening.packets import Packets, PacketWriter, is_packet_file, read_packets
 from fieldscribe.user_errors import UnclearError
 from support.captured import classic, segment
@@ -43,6 +43,27 @@ def test_pcap_of_any_order_and_resolution(order: str, magic: int, parts: int) ->
     head = struct.pack(f"{order}IHHiIII", magic, 2, 4, 0, 0, 65535, 147)
     packets = read(head + struct.pack(f"{order}IIII", 7, parts // 2, 2, 2) + b"\5\6")
     assert packets == [Packet(7.5, 147, b"\5\6")]
+
+
+def test_a_packet_without_time_belongs_to_the_first_interface() -> None:
+    head, simple = written()[:48], struct.pack("<IIIIII", 3, 20, 3, 0x00030201, 20, 0)[:20]
+    assert read(head + simple) == [Packet(None, 1, b"\1\2\3\0")]
+    assert read(head[:28] + simple) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "seconds"),
+    [
+        ("01:02:03.5 RX: 01 03", 3723.5),
+        ("[2026-01-02 10:20:30,25] 01 03", 1767349230.25),
+        ("2026-13-02 00:01:01 01 03", 61.0),
+        ("1700000000.25 01 03", 1700000000.25),
+        ("01 03", None),
+    ],
+)
+def test_the_time_of_a_line_in_a_log(text: str, seconds: float | None) -> None:
+    found, rest = timed(text)
+    assert (found, rest[-5:]) == (seconds, "01 03")
 
 
 @pytest.mark.parametrize("whole", [written(), classic([b"\1\2\3", b"\4"])], ids=["pcapng", "pcap"])

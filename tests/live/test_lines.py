@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 from fieldscribe.cli.live_options import line_of
 from fieldscribe.diagnostics import Report
-from fieldscribe.live.lines import Station, families_of, read_line, read_project
+from fieldscribe.families import families
+from fieldscribe.live.lines import Station, examples, families_of, read_line, read_project, schemes_of
 from fieldscribe.user_errors import UnclearError
 from fieldscribe.vendoring import project_file as vendoring
 from support.small_drive import Output
@@ -87,6 +88,11 @@ def test_wrong_settings_of_a_serial_line(text: str, message: str) -> None:
     with pytest.raises(UnclearError) as caught:
         read_line(text).serial("8N1")
     assert message in caught.value.message
+
+
+def test_there_is_an_example_of_the_lines_of_each_family() -> None:
+    shown = {read_line(text).scheme for text in examples()}
+    assert all(shown & set(schemes_of(family)) for family in families())
 
 
 @pytest.mark.parametrize("text", ["tcp://", "tcp://a:0", "tcp://a:99999", "tcp://a:x", "tcp://:502"])

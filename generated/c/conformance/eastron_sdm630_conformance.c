@@ -1330,17 +1330,8 @@ static void members_of_measurements(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     eastron_sdm630_measurements_group group;
-    eastron_sdm630_measurements_group other;
-    unsigned char filled[sizeof group] = {0U};
     size_t at;
-    fieldscribe_fill(all, sizeof all);
-    for (at = 0U; at < FIELDSCRIBE_COUNT(eastron_sdm630_measurements_blocks); ++at) {
-        memset(&group, 0, sizeof group);
-        memset(&other, 0xFF, sizeof other);
-        eastron_sdm630_measurements_group_decode(at, all, &group);
-        eastron_sdm630_measurements_group_decode(at, all, &other);
-        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
-    }
+    FIELDSCRIBE_FILLS_APART(eastron_sdm630_measurements_group, FIELDSCRIBE_COUNT(eastron_sdm630_measurements_blocks))
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(eastron_sdm630_measurements_blocks); ++at) {
         const size_t block = at / 2U;
@@ -1441,17 +1432,8 @@ static void members_of_settings(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     eastron_sdm630_settings_group group;
-    eastron_sdm630_settings_group other;
-    unsigned char filled[sizeof group] = {0U};
     size_t at;
-    fieldscribe_fill(all, sizeof all);
-    for (at = 0U; at < FIELDSCRIBE_COUNT(eastron_sdm630_settings_blocks); ++at) {
-        memset(&group, 0, sizeof group);
-        memset(&other, 0xFF, sizeof other);
-        eastron_sdm630_settings_group_decode(at, all, &group);
-        eastron_sdm630_settings_group_decode(at, all, &other);
-        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
-    }
+    FIELDSCRIBE_FILLS_APART(eastron_sdm630_settings_group, FIELDSCRIBE_COUNT(eastron_sdm630_settings_blocks))
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(eastron_sdm630_settings_blocks); ++at) {
         const size_t block = at / 2U;
@@ -1478,17 +1460,8 @@ static void members_of_maintenance(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     eastron_sdm630_maintenance_group group;
-    eastron_sdm630_maintenance_group other;
-    unsigned char filled[sizeof group] = {0U};
     size_t at;
-    fieldscribe_fill(all, sizeof all);
-    for (at = 0U; at < FIELDSCRIBE_COUNT(eastron_sdm630_maintenance_blocks); ++at) {
-        memset(&group, 0, sizeof group);
-        memset(&other, 0xFF, sizeof other);
-        eastron_sdm630_maintenance_group_decode(at, all, &group);
-        eastron_sdm630_maintenance_group_decode(at, all, &other);
-        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
-    }
+    FIELDSCRIBE_FILLS_APART(eastron_sdm630_maintenance_group, FIELDSCRIBE_COUNT(eastron_sdm630_maintenance_blocks))
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(eastron_sdm630_maintenance_blocks); ++at) {
         const size_t block = at / 2U;
@@ -1505,17 +1478,9 @@ static void members_of_order_of_registers(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     eastron_sdm630_order_of_registers_group group;
-    eastron_sdm630_order_of_registers_group other;
-    unsigned char filled[sizeof group] = {0U};
     size_t at;
-    fieldscribe_fill(all, sizeof all);
-    for (at = 0U; at < FIELDSCRIBE_COUNT(eastron_sdm630_order_of_registers_blocks); ++at) {
-        memset(&group, 0, sizeof group);
-        memset(&other, 0xFF, sizeof other);
-        eastron_sdm630_order_of_registers_group_decode(at, all, &group);
-        eastron_sdm630_order_of_registers_group_decode(at, all, &other);
-        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
-    }
+    FIELDSCRIBE_FILLS_APART(eastron_sdm630_order_of_registers_group,
+        FIELDSCRIBE_COUNT(eastron_sdm630_order_of_registers_blocks))
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(eastron_sdm630_order_of_registers_blocks); ++at) {
         const size_t block = at / 2U;

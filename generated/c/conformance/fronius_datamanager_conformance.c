@@ -4732,17 +4732,8 @@ static void members_of_common(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     fronius_datamanager_common_group group;
-    fronius_datamanager_common_group other;
-    unsigned char filled[sizeof group] = {0U};
     size_t at;
-    fieldscribe_fill(all, sizeof all);
-    for (at = 0U; at < FIELDSCRIBE_COUNT(fronius_datamanager_common_blocks); ++at) {
-        memset(&group, 0, sizeof group);
-        memset(&other, 0xFF, sizeof other);
-        fronius_datamanager_common_group_decode(at, all, &group);
-        fronius_datamanager_common_group_decode(at, all, &other);
-        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
-    }
+    FIELDSCRIBE_FILLS_APART(fronius_datamanager_common_group, FIELDSCRIBE_COUNT(fronius_datamanager_common_blocks))
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(fronius_datamanager_common_blocks); ++at) {
         const size_t block = at / 2U;
@@ -4764,17 +4755,8 @@ static void members_of_inverter(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     fronius_datamanager_inverter_group group;
-    fronius_datamanager_inverter_group other;
-    unsigned char filled[sizeof group] = {0U};
     size_t at;
-    fieldscribe_fill(all, sizeof all);
-    for (at = 0U; at < FIELDSCRIBE_COUNT(fronius_datamanager_inverter_blocks); ++at) {
-        memset(&group, 0, sizeof group);
-        memset(&other, 0xFF, sizeof other);
-        fronius_datamanager_inverter_group_decode(at, all, &group);
-        fronius_datamanager_inverter_group_decode(at, all, &other);
-        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
-    }
+    FIELDSCRIBE_FILLS_APART(fronius_datamanager_inverter_group, FIELDSCRIBE_COUNT(fronius_datamanager_inverter_blocks))
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(fronius_datamanager_inverter_blocks); ++at) {
         const size_t block = at / 2U;
@@ -4833,17 +4815,9 @@ static void members_of_nameplate(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     fronius_datamanager_nameplate_group group;
-    fronius_datamanager_nameplate_group other;
-    unsigned char filled[sizeof group] = {0U};
     size_t at;
-    fieldscribe_fill(all, sizeof all);
-    for (at = 0U; at < FIELDSCRIBE_COUNT(fronius_datamanager_nameplate_blocks); ++at) {
-        memset(&group, 0, sizeof group);
-        memset(&other, 0xFF, sizeof other);
-        fronius_datamanager_nameplate_group_decode(at, all, &group);
-        fronius_datamanager_nameplate_group_decode(at, all, &other);
-        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
-    }
+    FIELDSCRIBE_FILLS_APART(fronius_datamanager_nameplate_group,
+        FIELDSCRIBE_COUNT(fronius_datamanager_nameplate_blocks))
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(fronius_datamanager_nameplate_blocks); ++at) {
         const size_t block = at / 2U;
@@ -4884,17 +4858,8 @@ static void members_of_settings(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     fronius_datamanager_settings_group group;
-    fronius_datamanager_settings_group other;
-    unsigned char filled[sizeof group] = {0U};
     size_t at;
-    fieldscribe_fill(all, sizeof all);
-    for (at = 0U; at < FIELDSCRIBE_COUNT(fronius_datamanager_settings_blocks); ++at) {
-        memset(&group, 0, sizeof group);
-        memset(&other, 0xFF, sizeof other);
-        fronius_datamanager_settings_group_decode(at, all, &group);
-        fronius_datamanager_settings_group_decode(at, all, &other);
-        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
-    }
+    FIELDSCRIBE_FILLS_APART(fronius_datamanager_settings_group, FIELDSCRIBE_COUNT(fronius_datamanager_settings_blocks))
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(fronius_datamanager_settings_blocks); ++at) {
         const size_t block = at / 2U;
@@ -4940,17 +4905,8 @@ static void members_of_status(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     fronius_datamanager_status_group group;
-    fronius_datamanager_status_group other;
-    unsigned char filled[sizeof group] = {0U};
     size_t at;
-    fieldscribe_fill(all, sizeof all);
-    for (at = 0U; at < FIELDSCRIBE_COUNT(fronius_datamanager_status_blocks); ++at) {
-        memset(&group, 0, sizeof group);
-        memset(&other, 0xFF, sizeof other);
-        fronius_datamanager_status_group_decode(at, all, &group);
-        fronius_datamanager_status_group_decode(at, all, &other);
-        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
-    }
+    FIELDSCRIBE_FILLS_APART(fronius_datamanager_status_group, FIELDSCRIBE_COUNT(fronius_datamanager_status_blocks))
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(fronius_datamanager_status_blocks); ++at) {
         const size_t block = at / 2U;
@@ -4986,17 +4942,8 @@ static void members_of_controls(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     fronius_datamanager_controls_group group;
-    fronius_datamanager_controls_group other;
-    unsigned char filled[sizeof group] = {0U};
     size_t at;
-    fieldscribe_fill(all, sizeof all);
-    for (at = 0U; at < FIELDSCRIBE_COUNT(fronius_datamanager_controls_blocks); ++at) {
-        memset(&group, 0, sizeof group);
-        memset(&other, 0xFF, sizeof other);
-        fronius_datamanager_controls_group_decode(at, all, &group);
-        fronius_datamanager_controls_group_decode(at, all, &other);
-        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
-    }
+    FIELDSCRIBE_FILLS_APART(fronius_datamanager_controls_group, FIELDSCRIBE_COUNT(fronius_datamanager_controls_blocks))
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(fronius_datamanager_controls_blocks); ++at) {
         const size_t block = at / 2U;
@@ -5036,17 +4983,8 @@ static void members_of_mppt(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     fronius_datamanager_mppt_group group;
-    fronius_datamanager_mppt_group other;
-    unsigned char filled[sizeof group] = {0U};
     size_t at;
-    fieldscribe_fill(all, sizeof all);
-    for (at = 0U; at < FIELDSCRIBE_COUNT(fronius_datamanager_mppt_blocks); ++at) {
-        memset(&group, 0, sizeof group);
-        memset(&other, 0xFF, sizeof other);
-        fronius_datamanager_mppt_group_decode(at, all, &group);
-        fronius_datamanager_mppt_group_decode(at, all, &other);
-        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
-    }
+    FIELDSCRIBE_FILLS_APART(fronius_datamanager_mppt_group, FIELDSCRIBE_COUNT(fronius_datamanager_mppt_blocks))
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(fronius_datamanager_mppt_blocks); ++at) {
         const size_t block = at / 2U;
@@ -5089,17 +5027,8 @@ static void members_of_storage(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     fronius_datamanager_storage_group group;
-    fronius_datamanager_storage_group other;
-    unsigned char filled[sizeof group] = {0U};
     size_t at;
-    fieldscribe_fill(all, sizeof all);
-    for (at = 0U; at < FIELDSCRIBE_COUNT(fronius_datamanager_storage_blocks); ++at) {
-        memset(&group, 0, sizeof group);
-        memset(&other, 0xFF, sizeof other);
-        fronius_datamanager_storage_group_decode(at, all, &group);
-        fronius_datamanager_storage_group_decode(at, all, &other);
-        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
-    }
+    FIELDSCRIBE_FILLS_APART(fronius_datamanager_storage_group, FIELDSCRIBE_COUNT(fronius_datamanager_storage_blocks))
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(fronius_datamanager_storage_blocks); ++at) {
         const size_t block = at / 2U;
@@ -5139,17 +5068,8 @@ static void members_of_fronius(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     fronius_datamanager_fronius_group group;
-    fronius_datamanager_fronius_group other;
-    unsigned char filled[sizeof group] = {0U};
     size_t at;
-    fieldscribe_fill(all, sizeof all);
-    for (at = 0U; at < FIELDSCRIBE_COUNT(fronius_datamanager_fronius_blocks); ++at) {
-        memset(&group, 0, sizeof group);
-        memset(&other, 0xFF, sizeof other);
-        fronius_datamanager_fronius_group_decode(at, all, &group);
-        fronius_datamanager_fronius_group_decode(at, all, &other);
-        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
-    }
+    FIELDSCRIBE_FILLS_APART(fronius_datamanager_fronius_group, FIELDSCRIBE_COUNT(fronius_datamanager_fronius_blocks))
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(fronius_datamanager_fronius_blocks); ++at) {
         const size_t block = at / 2U;

@@ -4545,17 +4545,8 @@ static void members_of_coils(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     hitachi_l200_coils_group group;
-    hitachi_l200_coils_group other;
-    unsigned char filled[sizeof group] = {0U};
     size_t at;
-    fieldscribe_fill(all, sizeof all);
-    for (at = 0U; at < FIELDSCRIBE_COUNT(hitachi_l200_coils_blocks); ++at) {
-        memset(&group, 0, sizeof group);
-        memset(&other, 0xFF, sizeof other);
-        hitachi_l200_coils_group_decode(at, all, &group);
-        hitachi_l200_coils_group_decode(at, all, &other);
-        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
-    }
+    FIELDSCRIBE_FILLS_APART(hitachi_l200_coils_group, FIELDSCRIBE_COUNT(hitachi_l200_coils_blocks))
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(hitachi_l200_coils_blocks); ++at) {
         const size_t block = at / 2U;
@@ -4594,17 +4585,8 @@ static void members_of_status(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     hitachi_l200_status_group group;
-    hitachi_l200_status_group other;
-    unsigned char filled[sizeof group] = {0U};
     size_t at;
-    fieldscribe_fill(all, sizeof all);
-    for (at = 0U; at < FIELDSCRIBE_COUNT(hitachi_l200_status_blocks); ++at) {
-        memset(&group, 0, sizeof group);
-        memset(&other, 0xFF, sizeof other);
-        hitachi_l200_status_group_decode(at, all, &group);
-        hitachi_l200_status_group_decode(at, all, &other);
-        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
-    }
+    FIELDSCRIBE_FILLS_APART(hitachi_l200_status_group, FIELDSCRIBE_COUNT(hitachi_l200_status_blocks))
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(hitachi_l200_status_blocks); ++at) {
         const size_t block = at / 2U;
@@ -4622,17 +4604,8 @@ static void members_of_monitor_d(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     hitachi_l200_monitor_d_group group;
-    hitachi_l200_monitor_d_group other;
-    unsigned char filled[sizeof group] = {0U};
     size_t at;
-    fieldscribe_fill(all, sizeof all);
-    for (at = 0U; at < FIELDSCRIBE_COUNT(hitachi_l200_monitor_d_blocks); ++at) {
-        memset(&group, 0, sizeof group);
-        memset(&other, 0xFF, sizeof other);
-        hitachi_l200_monitor_d_group_decode(at, all, &group);
-        hitachi_l200_monitor_d_group_decode(at, all, &other);
-        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
-    }
+    FIELDSCRIBE_FILLS_APART(hitachi_l200_monitor_d_group, FIELDSCRIBE_COUNT(hitachi_l200_monitor_d_blocks))
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(hitachi_l200_monitor_d_blocks); ++at) {
         const size_t block = at / 2U;
@@ -4676,17 +4649,8 @@ static void members_of_basic_f(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     hitachi_l200_basic_f_group group;
-    hitachi_l200_basic_f_group other;
-    unsigned char filled[sizeof group] = {0U};
     size_t at;
-    fieldscribe_fill(all, sizeof all);
-    for (at = 0U; at < FIELDSCRIBE_COUNT(hitachi_l200_basic_f_blocks); ++at) {
-        memset(&group, 0, sizeof group);
-        memset(&other, 0xFF, sizeof other);
-        hitachi_l200_basic_f_group_decode(at, all, &group);
-        hitachi_l200_basic_f_group_decode(at, all, &other);
-        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
-    }
+    FIELDSCRIBE_FILLS_APART(hitachi_l200_basic_f_group, FIELDSCRIBE_COUNT(hitachi_l200_basic_f_blocks))
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(hitachi_l200_basic_f_blocks); ++at) {
         const size_t block = at / 2U;
@@ -4706,17 +4670,8 @@ static void members_of_standard_a(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     hitachi_l200_standard_a_group group;
-    hitachi_l200_standard_a_group other;
-    unsigned char filled[sizeof group] = {0U};
     size_t at;
-    fieldscribe_fill(all, sizeof all);
-    for (at = 0U; at < FIELDSCRIBE_COUNT(hitachi_l200_standard_a_blocks); ++at) {
-        memset(&group, 0, sizeof group);
-        memset(&other, 0xFF, sizeof other);
-        hitachi_l200_standard_a_group_decode(at, all, &group);
-        hitachi_l200_standard_a_group_decode(at, all, &other);
-        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
-    }
+    FIELDSCRIBE_FILLS_APART(hitachi_l200_standard_a_group, FIELDSCRIBE_COUNT(hitachi_l200_standard_a_blocks))
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(hitachi_l200_standard_a_blocks); ++at) {
         const size_t block = at / 2U;
@@ -4828,17 +4783,8 @@ static void members_of_fine_tuning_b(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     hitachi_l200_fine_tuning_b_group group;
-    hitachi_l200_fine_tuning_b_group other;
-    unsigned char filled[sizeof group] = {0U};
     size_t at;
-    fieldscribe_fill(all, sizeof all);
-    for (at = 0U; at < FIELDSCRIBE_COUNT(hitachi_l200_fine_tuning_b_blocks); ++at) {
-        memset(&group, 0, sizeof group);
-        memset(&other, 0xFF, sizeof other);
-        hitachi_l200_fine_tuning_b_group_decode(at, all, &group);
-        hitachi_l200_fine_tuning_b_group_decode(at, all, &other);
-        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
-    }
+    FIELDSCRIBE_FILLS_APART(hitachi_l200_fine_tuning_b_group, FIELDSCRIBE_COUNT(hitachi_l200_fine_tuning_b_blocks))
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(hitachi_l200_fine_tuning_b_blocks); ++at) {
         const size_t block = at / 2U;
@@ -4884,17 +4830,8 @@ static void members_of_control_c(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     hitachi_l200_control_c_group group;
-    hitachi_l200_control_c_group other;
-    unsigned char filled[sizeof group] = {0U};
     size_t at;
-    fieldscribe_fill(all, sizeof all);
-    for (at = 0U; at < FIELDSCRIBE_COUNT(hitachi_l200_control_c_blocks); ++at) {
-        memset(&group, 0, sizeof group);
-        memset(&other, 0xFF, sizeof other);
-        hitachi_l200_control_c_group_decode(at, all, &group);
-        hitachi_l200_control_c_group_decode(at, all, &other);
-        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
-    }
+    FIELDSCRIBE_FILLS_APART(hitachi_l200_control_c_group, FIELDSCRIBE_COUNT(hitachi_l200_control_c_blocks))
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(hitachi_l200_control_c_blocks); ++at) {
         const size_t block = at / 2U;
@@ -4954,17 +4891,8 @@ static void members_of_motor_h(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     hitachi_l200_motor_h_group group;
-    hitachi_l200_motor_h_group other;
-    unsigned char filled[sizeof group] = {0U};
     size_t at;
-    fieldscribe_fill(all, sizeof all);
-    for (at = 0U; at < FIELDSCRIBE_COUNT(hitachi_l200_motor_h_blocks); ++at) {
-        memset(&group, 0, sizeof group);
-        memset(&other, 0xFF, sizeof other);
-        hitachi_l200_motor_h_group_decode(at, all, &group);
-        hitachi_l200_motor_h_group_decode(at, all, &other);
-        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
-    }
+    FIELDSCRIBE_FILLS_APART(hitachi_l200_motor_h_group, FIELDSCRIBE_COUNT(hitachi_l200_motor_h_blocks))
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(hitachi_l200_motor_h_blocks); ++at) {
         const size_t block = at / 2U;

@@ -545,17 +545,8 @@ static void members_of_process_data(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     jumo_controller_process_data_group group;
-    jumo_controller_process_data_group other;
-    unsigned char filled[sizeof group] = {0U};
     size_t at;
-    fieldscribe_fill(all, sizeof all);
-    for (at = 0U; at < FIELDSCRIBE_COUNT(jumo_controller_process_data_blocks); ++at) {
-        memset(&group, 0, sizeof group);
-        memset(&other, 0xFF, sizeof other);
-        jumo_controller_process_data_group_decode(at, all, &group);
-        jumo_controller_process_data_group_decode(at, all, &other);
-        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
-    }
+    FIELDSCRIBE_FILLS_APART(jumo_controller_process_data_group, FIELDSCRIBE_COUNT(jumo_controller_process_data_blocks))
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(jumo_controller_process_data_blocks); ++at) {
         const size_t block = at / 2U;
@@ -586,17 +577,8 @@ static void members_of_examples(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     jumo_controller_examples_group group;
-    jumo_controller_examples_group other;
-    unsigned char filled[sizeof group] = {0U};
     size_t at;
-    fieldscribe_fill(all, sizeof all);
-    for (at = 0U; at < FIELDSCRIBE_COUNT(jumo_controller_examples_blocks); ++at) {
-        memset(&group, 0, sizeof group);
-        memset(&other, 0xFF, sizeof other);
-        jumo_controller_examples_group_decode(at, all, &group);
-        jumo_controller_examples_group_decode(at, all, &other);
-        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
-    }
+    FIELDSCRIBE_FILLS_APART(jumo_controller_examples_group, FIELDSCRIBE_COUNT(jumo_controller_examples_blocks))
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(jumo_controller_examples_blocks); ++at) {
         const size_t block = at / 2U;
@@ -616,17 +598,9 @@ static void members_of_command_words(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     jumo_controller_command_words_group group;
-    jumo_controller_command_words_group other;
-    unsigned char filled[sizeof group] = {0U};
     size_t at;
-    fieldscribe_fill(all, sizeof all);
-    for (at = 0U; at < FIELDSCRIBE_COUNT(jumo_controller_command_words_blocks); ++at) {
-        memset(&group, 0, sizeof group);
-        memset(&other, 0xFF, sizeof other);
-        jumo_controller_command_words_group_decode(at, all, &group);
-        jumo_controller_command_words_group_decode(at, all, &other);
-        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
-    }
+    FIELDSCRIBE_FILLS_APART(jumo_controller_command_words_group,
+        FIELDSCRIBE_COUNT(jumo_controller_command_words_blocks))
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(jumo_controller_command_words_blocks); ++at) {
         const size_t block = at / 2U;

@@ -310,17 +310,8 @@ static void members_of_process_data(
 {
     uint16_t all[FIELDSCRIBE_VALUES_MOST];
     nord_sk5xxe_process_data_group group;
-    nord_sk5xxe_process_data_group other;
-    unsigned char filled[sizeof group] = {0U};
     size_t at;
-    fieldscribe_fill(all, sizeof all);
-    for (at = 0U; at < FIELDSCRIBE_COUNT(nord_sk5xxe_process_data_blocks); ++at) {
-        memset(&group, 0, sizeof group);
-        memset(&other, 0xFF, sizeof other);
-        nord_sk5xxe_process_data_group_decode(at, all, &group);
-        nord_sk5xxe_process_data_group_decode(at, all, &other);
-        fieldscribe_fills_apart(v, &group, &other, filled, sizeof group);
-    }
+    FIELDSCRIBE_FILLS_APART(nord_sk5xxe_process_data_group, FIELDSCRIBE_COUNT(nord_sk5xxe_process_data_blocks))
     fieldscribe_fill(&group, sizeof group);
     for (at = 0U; at < 2U * FIELDSCRIBE_COUNT(nord_sk5xxe_process_data_blocks); ++at) {
         const size_t block = at / 2U;

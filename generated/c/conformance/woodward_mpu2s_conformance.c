@@ -7596,6 +7596,7 @@ static void values_of_visualisation(fieldscribe_vector *v)
     const char *at = fieldscribe_field(v, "frames");
     fieldscribe_can_frame frame;
     woodward_mpu2s_visualisation_values group;
+    FIELDSCRIBE_FILLS_APART(woodward_mpu2s_visualisation_values, WOODWARD_MPU2S_TELEGRAM_VISUALISATION_SLOTS)
     fieldscribe_fill(&group, sizeof group);
     while (fieldscribe_next_frame(&at, &frame)) {
         (void)woodward_mpu2s_visualisation_values_take(&frame, (uint8_t)fieldscribe_at_most(v, "unit", 255U), &group);

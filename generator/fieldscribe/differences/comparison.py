@@ -105,10 +105,10 @@ class _Comparison:
                 self._compare_pair(parts, before, after, things)
         for part in added:
             inner = (*things, Thing(parts.kind, None, part["name"]))
-            self.found.append(Difference(_class(parts.added, None, part), inner, "", None, parts.summary(part)))
+            self.found.append(Difference(parts.added, inner, "", None, parts.summary(part)))
         for part in removed:
             inner = (*things, Thing(parts.kind, part["name"], None))
-            self.found.append(Difference(_class(parts.removed, part, None), inner, "", parts.summary(part), None))
+            self.found.append(Difference(parts.removed, inner, "", parts.summary(part), None))
         return False
 
     def _compare_pair(self, parts: Parts, old: Exported, new: Exported, things: tuple[Thing, ...]) -> None:

@@ -27,7 +27,7 @@ from fieldscribe.facts.schema import (
     ref,
 )
 from fieldscribe.facts.steps import STEPPED_COMMANDS
-from fieldscribe.facts.table import API, BEHAVIOUR, DOCS, WIRE, Context, Exported, Fact, FactTable, Parts, View, Weight
+from fieldscribe.facts.table import API, BEHAVIOUR, DOCS, WIRE, Context, Exported, Fact, FactTable, Parts, View
 from fieldscribe.families import Family, families, family
 from fieldscribe.model import Bus, Code, Erratum
 from fieldscribe.wording import without_lines
@@ -102,9 +102,7 @@ def _list(key: str, doc: str, parts: Parts) -> Fact:
     return Fact(key, doc, list_of(ref(parts.kind)), table=parts.table, views=(parts,))
 
 
-def _parts(
-    kind: str, table: FactTable, *same_by: str | View, listed: Listed | None = None, change: Weight = ""
-) -> Parts:
+def _parts(kind: str, table: FactTable, *same_by: str | View, listed: Listed | None = None, change: str = "") -> Parts:
     """Return things of a kind for `diff`; with `change`, added, removed and renamed ones are of that class."""
     parts = Parts(kind, kind, listed or partial(_named, f"{kind}s"), table, same_by=same_by)
     return replace(parts, added=change, removed=change, renamed=change) if change else parts

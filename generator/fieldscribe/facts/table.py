@@ -82,8 +82,8 @@ class Parts:
     table: FactTable
     views: tuple[View, ...] = ()
     same_by: tuple[str | View, ...] = ()
-    added: Weight = COMPATIBLE
-    removed: Weight = API
+    added: str = COMPATIBLE
+    removed: str = API
     renamed: Weight = API
     whole: str = ""
     summary: Callable[[Exported], Any] = itemgetter("name")

@@ -34,18 +34,18 @@ def chunks_of(
     if is_bus_file(stream.peek(4)):
         yield from bus_chunks(stream)
         return
-    read = skipped = 0
+    has_frames, skipped = False, 0
     while line := stream.readline(_LONGEST_LINE):
         text = line.decode("utf-8-sig", "replace").strip()
         chunks = [chunk for frame in _frames_in(text) if (chunk := chunk_of(frame)) is not None]
         if chunks:
-            read += 1
+            has_frames = True
             yield from chunks
         elif text:
             skipped += 1
-            if skipped == _ENOUGH and not read:
+            if skipped == _ENOUGH and not has_frames:
                 raise UnclearError(*_NONE)
-    if skipped and not read:
+    if skipped and not has_frames:
         raise UnclearError(*_NONE)
 
 

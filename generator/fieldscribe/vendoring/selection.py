@@ -141,7 +141,7 @@ def _dependencies(point: Point) -> Iterator[str]:
 
 def _only_read(point: Point) -> Point:
     """Return the point without writing, whose limits may depend on further points."""
-    if not (point.readable and point.writable):
+    if not point.readable:
         return point
     outermost = tuple(Interval(*interval.outer) for interval in point.allowed.intervals)
     allowed = replace(point.allowed, intervals=outermost) if point.allowed.moves else point.allowed

@@ -459,6 +459,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_status(fieldscribe_vector *v, int status)
         for (; one->name != NULL; ++one) {                                                       \
             fieldscribe_agree(v, fieldscribe_spells(one->name, name_of((type)one->status)));     \
         }                                                                                        \
+        fieldscribe_agree(v, fieldscribe_spells("unknown", name_of((type)99)));                  \
     }
 
 /* Checks a status and, if it is ok, a number; otherwise nothing may have been stored. */
@@ -1122,6 +1123,48 @@ static inline void fieldscribe_refuses_long_numbers(
     fieldscribe_agree(v, words[0] == 7U && words[1] == 7U && words[3] == 7U && back == 9 && same == 9U);
 }
 
+/* Two structs that differed agree now in the bytes that a block filled in, and no other block fills in one of them. */
+static inline void fieldscribe_fills_apart(
+    fieldscribe_vector *v, const void *one, const void *other, unsigned char *filled, size_t size)
+{
+    size_t at;
+    for (at = 0U; at < size; ++at) {
+        const bool agree = ((const unsigned char *)one)[at] == ((const unsigned char *)other)[at];
+        fieldscribe_agree(v, !agree || filled[at] == 0U);
+        filled[at] = agree ? 1U : filled[at];
+    }
+}
+
+#define FIELDSCRIBE_FILLS_APART(type, blocks)                                                    \
+    {                                                                                            \
+        uint16_t any[FIELDSCRIBE_VALUES_MOST];                                                   \
+        unsigned char filled[sizeof(type)] = {0U};                                               \
+        type one;                                                                                \
+        type other;                                                                              \
+        size_t block;                                                                            \
+        fieldscribe_fill(any, sizeof any);                                                       \
+        for (block = 0U; block < (blocks); ++block) {                                            \
+            memset(&one, 0, sizeof one);                                                         \
+            memset(&other, 0xFF, sizeof other);                                                  \
+            type##_decode(block, any, &one);                                                     \
+            type##_decode(block, any, &other);                                                   \
+            fieldscribe_fills_apart(v, &one, &other, filled, sizeof one);                        \
+        }                                                                                        \
+    }
+
+/* The raw number of a count is none where a step to it takes more than 64 bits. */
+static inline void fieldscribe_refuses_long_counts(fieldscribe_vector *v)
+{
+    static const fieldscribe_rule rules[] = {
+        {FIELDSCRIBE_OK, 0, INT64_MAX, 1, 1, 2}, {FIELDSCRIBE_OK, 0, INT64_MAX, 1, 1, 1},
+        {FIELDSCRIBE_OK, 0, 2, 1, 1, 1}, {FIELDSCRIBE_OK, 0, 1, 1, INT64_MAX, 1}, {FIELDSCRIBE_OK, 0, 1, 1, INT64_MAX / 2, 1}};
+    size_t at;
+    for (at = 0U; at < sizeof rules / sizeof rules[0]; ++at) {
+        fieldscribe_agree(v, fieldscribe_ruled_count(rules[at], INT64_MAX / 2, 1, INT64_MIN, INT64_MAX).status ==
+                FIELDSCRIBE_OUT_OF_RANGE);
+    }
+}
+
 /* Numbers of 64 bits in any order of words, which few devices have. */
 static inline void fieldscribe_holds_long_numbers(fieldscribe_vector *v)
 {
@@ -1130,6 +1173,7 @@ static inline void fieldscribe_holds_long_numbers(fieldscribe_vector *v)
     fieldscribe_layout without = {FIELDSCRIBE_U64, 4U, 0x0123U, false, 0U, UINT64_MAX, 0U, 0U};
     size_t at;
     fieldscribe_holds_signs(v);
+    fieldscribe_refuses_long_counts(v);
     for (at = 0U; at < sizeof numbers / sizeof numbers[0]; ++at) {
         const uint64_t bits = numbers[at] < 0 ? ~(uint64_t)(-1 - numbers[at]) : (uint64_t)numbers[at];
         uint16_t words[5] = {0U, 0U, 0U, 0U, 9U};

@@ -476,18 +476,6 @@ FIELDSCRIBE_ONCE void fieldscribe_is_found(
         }                                                                                        \
     }
 
-/* Two structs that differed agree now in the bytes that a block filled in: no other block fills in one of them. */
-static inline void fieldscribe_fills_apart(
-    fieldscribe_vector *v, const void *one, const void *other, unsigned char *filled, size_t size)
-{
-    size_t at;
-    for (at = 0U; at < size; ++at) {
-        const bool agree = ((const unsigned char *)one)[at] == ((const unsigned char *)other)[at];
-        fieldscribe_agree(v, !agree || filled[at] == 0U);
-        filled[at] = agree ? 1U : filled[at];
-    }
-}
-
 /* Whether the words of a text in the order of reading are those of the answer. */
 FIELDSCRIBE_ONCE bool fieldscribe_reads_text(const fieldscribe_text *text, const uint16_t *words)
 {

@@ -43,7 +43,10 @@ class TelegramView:
 
 @dataclass(frozen=True, slots=True)
 class SignalsView:
-    """A message of signals: rows of its table, and the choices that select some of them, by the name of their array."""
+    """A message of signals: rows of its table, and the choices that select some of them, by the name of their array.
+
+    `always` are the first words of those parts that every frame has.
+    """
 
     name: str
     comment: str
@@ -59,6 +62,7 @@ class SignalsView:
     rows: list[tuple[int, int, str, int, str]]
     choices: list[tuple[str, list[tuple[int, int, str]]]]
     reads: bool
+    always: set[str]
     values: StructView
 
 
@@ -215,6 +219,7 @@ def _signals(message: Message, placed: Sequence[GeneratedPoint], members: Member
         ],
         list(choices.values()),
         bool(mine),
+        {f"{words.start}U" for words, when in signals.parts(message) if not when},
         values,
     )
 
