@@ -1157,7 +1157,8 @@ static inline void fieldscribe_refuses_long_counts(fieldscribe_vector *v)
 {
     static const fieldscribe_rule rules[] = {
         {FIELDSCRIBE_OK, 0, INT64_MAX, 1, 1, 2}, {FIELDSCRIBE_OK, 0, INT64_MAX, 1, 1, 1},
-        {FIELDSCRIBE_OK, 0, 2, 1, 1, 1}, {FIELDSCRIBE_OK, 0, 1, 1, INT64_MAX, 1}, {FIELDSCRIBE_OK, 0, 1, 1, INT64_MAX / 2, 1}};
+        {FIELDSCRIBE_OK, 0, 2, 1, 1, 1}, {FIELDSCRIBE_OK, 0, 1, 1, INT64_MAX, 1},
+        {FIELDSCRIBE_OK, 0, 1, 1, INT64_MAX / 2, 1}};
     size_t at;
     for (at = 0U; at < sizeof rules / sizeof rules[0]; ++at) {
         fieldscribe_agree(v, fieldscribe_ruled_count(rules[at], INT64_MAX / 2, 1, INT64_MIN, INT64_MAX).status ==

@@ -605,6 +605,7 @@ static inline void fieldscribe_holds_rows(fieldscribe_vector *v)
             {0x0201U}, 32768},
     };
     size_t at;
+    fieldscribe_agree(v, FIELDSCRIBE_MODBUS_RAW == -1); /* no number of decimals */
     for (at = 0U; at < sizeof cases / sizeof cases[0]; ++at) {
         fieldscribe_holds_row(v, &cases[at]);
     }

@@ -37,6 +37,8 @@ ROWS: list[tuple[str, Any]] = [
     ("sink.plainU16.fromWords(5)", "wrong_type"),
     ("sink.plainU32.fromWords([1])", "wrong_length"),
     ("sink.plainU16.encode(65536)", "out_of_range"),
+    ("sink.plainU16.toWords(65536)", "out_of_range"),
+    ("sink.plainU16.toWords(-1)", "out_of_range"),
     ("sink.plainU16.encode(1.5)", "out_of_range"),
     ("sink.plainU16.encode('5')", "wrong_type"),
     ("sink.plainS16.decode(32768)", "out_of_range"),

@@ -118,7 +118,9 @@ def test_failures_are_counted_and_retried_but_commands_are_not(l200: tuple[Simul
     drive.fault("silent x1")
     assert node("baseFrequency", "readRaw") > 0
     drive.fault("silent x1")
-    assert status_of(node, "enter", "send") == "timeout"
+    with pytest.raises(NodeError, match=r"unit \d+ did not reply to function 0\dh") as raised:
+        node("enter", "send")
+    assert raised.value.status == "timeout"
     node.set(retries=0)
 
 
