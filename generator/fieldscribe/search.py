@@ -9,12 +9,12 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from difflib import get_close_matches
 from functools import lru_cache, partial
 from operator import itemgetter
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from fieldscribe.diagnostics import Report, Span
 from fieldscribe.language.nodes import Map
@@ -34,8 +34,7 @@ _FAULT_NAMES = ("fault", "error", "trip", "alarm")
 """A point whose name has one of these words lists faults."""
 
 
-@dataclass(frozen=True, slots=True)
-class Text:
+class Text(NamedTuple):
     """A text of an entry: its kind, its place, and the number that it names (in an enum)."""
 
     kind: str
@@ -155,8 +154,7 @@ def _codes(device: str, subject: Analysis) -> Iterator[Entry]:
             yield Entry(device, codes.kind, code.name, None, heading, texts, code.number)
 
 
-@dataclass(frozen=True, slots=True)
-class Summary:
+class Summary(NamedTuple):
     """A device in a list; `points` is their number, `names` are their names and codes."""
 
     device: str
@@ -170,7 +168,7 @@ class Summary:
 
     def as_data(self) -> dict[str, Any]:
         """Return the summary for JSON."""
-        return {key: value for key, value in asdict(self).items() if key != "names"}
+        return {key: value for key, value in self._asdict().items() if key != "names"}
 
 
 def summary_of(device_file: Path) -> Summary | None:
@@ -197,8 +195,7 @@ _WHOLE, _WHOLE_WORD, _PREFIX, _INSIDE = 0, 10, 20, 30
 _LEAST_INSIDE = 3
 
 
-@dataclass(frozen=True, slots=True)
-class Hit:
+class Hit(NamedTuple):
     """An entry that has all the words: the matching texts, the nearest first, and a rank (low is near)."""
 
     entry: Entry

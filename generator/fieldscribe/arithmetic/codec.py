@@ -4,9 +4,9 @@ It knows neither words on the wire nor buses. A CodecError names the other point
 """
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from math import isfinite, isnan
+from typing import NamedTuple
 
 from fieldscribe.arithmetic import exact
 from fieldscribe.arithmetic.exact import half_away
@@ -43,8 +43,7 @@ class _Code(int):
     """The setting of any other point that holds a special code: its raw number."""
 
 
-@dataclass(frozen=True, slots=True)
-class Window:
+class Window(NamedTuple):
     """Raw numbers low..high that may be written now; the widest possible interval while points are `missing`."""
 
     low: int

@@ -3,9 +3,9 @@
 import os
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import NamedTuple
 
 from fieldscribe.diagnostics import Diagnostic, Report
 from fieldscribe.families import FAMILIES, family
@@ -39,8 +39,7 @@ parts: [main.yaml]
 """
 
 
-@dataclass(frozen=True, slots=True)
-class Question:
+class Question(NamedTuple):
     """A fact that a new description needs."""
 
     name: str

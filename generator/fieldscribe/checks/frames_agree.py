@@ -130,8 +130,7 @@ def report_refused(analysis: Analysis, located: LocatedFrame, status: str, unit:
 def _report_unit(analysis: Analysis, located: LocatedFrame, unit: int, bus: Map) -> Seen:
     """Report a unit number that the device cannot have: once for all frames, at `units` of the bus."""
     fact = located.printed("form", hex_of(located.frame.printed), None, "")
-    fact = replace(
-        fact,
+    fact = fact._replace(
         span=bus.span("units"),
         message=f"{units_text(analysis.bus)}, and printed frames have unit {unit}",
         hint="correct `units`, or explain each of these frames: an erratum with `printed: {form: …}`",

@@ -5,10 +5,10 @@ Users type a number with or without its unit, a name, on or off, flags, digits, 
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from difflib import get_close_matches
 from fractions import Fraction
-from typing import Any
+from typing import Any, NamedTuple
 
 from fieldscribe import wording
 from fieldscribe.arithmetic import codec
@@ -37,8 +37,7 @@ _CHARACTERS = {"ascii": ((0x20, 0x7E),), "latin-1": ((0x20, 0x7E), (0xA0, 0xFF))
 """The ranges of characters that may be written, by encoding."""
 
 
-@dataclass(frozen=True, slots=True)
-class Typed:
+class Typed(NamedTuple):
     """A typed value: a quantity to encode, or a raw number if `value` is None."""
 
     value: Fraction | None
@@ -272,8 +271,7 @@ def _pattern_of_text(point: Point, typed: str) -> int:
     return pattern_of_text(layout, typed)
 
 
-@dataclass(frozen=True, slots=True)
-class Encoded:
+class Encoded(NamedTuple):
     """A raw number to write, its meaning, and notes on how the value was rounded."""
 
     point: str

@@ -1,8 +1,8 @@
 """Explains what a user names, for `explain`: points with all facts, commands, errata, messages, codes, units, gaps."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from functools import partial
+from typing import NamedTuple
 
 from fieldscribe import wording
 from fieldscribe.arithmetic.exact import float_of, pattern_of
@@ -32,8 +32,7 @@ _ROWS = {
 """The row of a printed fact, if its label differs from its key."""
 
 
-@dataclass(frozen=True, slots=True)
-class Explanation:
+class Explanation(NamedTuple):
     """The explanation of a point: a heading and rows of label and text, without control characters."""
 
     heading: str

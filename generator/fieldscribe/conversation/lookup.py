@@ -2,9 +2,9 @@
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from difflib import get_close_matches
 from operator import itemgetter, ne
+from typing import NamedTuple
 
 from fieldscribe.families import family
 from fieldscribe.model import Device, Place, Point
@@ -27,8 +27,7 @@ _NEAR = 256
 _LOOK_ALIKE = str.maketrans("oil", "011")
 
 
-@dataclass(frozen=True, slots=True)
-class Match:
+class Match(NamedTuple):
     """A point that a text names, the reading of the text, and the word of the point that it names (empty for all)."""
 
     reading: str

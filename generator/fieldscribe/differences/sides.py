@@ -5,7 +5,6 @@ import os
 import subprocess
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
@@ -30,8 +29,7 @@ _SECONDS = 60
 EXPORT_HINT = "write it with `fieldscribe export json DEVICE`"
 
 
-@dataclass(frozen=True, slots=True)
-class Side:
+class Side(NamedTuple):
     """One device of one side: its exported model, its description (None for an exported model), and its file.
 
     `name_of` turns the path of a file into the name that messages show; a side from git is `copied`.

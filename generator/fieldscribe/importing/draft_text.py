@@ -42,8 +42,7 @@ class Document(NamedTuple):
     has_lines: bool = True
 
 
-@dataclass(frozen=True, slots=True)
-class Head:
+class Head(NamedTuple):
     """The head of the draft: facts of the device and of the source files; the language is that of the titles.
 
     `facts` are further lines of the head, `kind` is what the files hold.

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from fieldscribe.importing.cells import one_line
 from fieldscribe.importing.readers import Row, Table
@@ -84,8 +84,7 @@ _SEPARATORS = re.compile(r"[.:;*#_,\s-]*[.:;*#_,\s]+[.:;*#_,\s-]*")
 _NUMBER = re.compile(r"[\d.,/x-]*\d[\d.,/x-]*|0x[0-9A-F]+|[0-9A-F]*\d[0-9A-F]*h", re.IGNORECASE)
 
 
-@dataclass(frozen=True, slots=True)
-class Columns:
+class Columns(NamedTuple):
     """A table with its columns: by role their places from 0, all headings, a title above them, the first data row."""
 
     table: Table

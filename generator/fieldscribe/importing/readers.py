@@ -4,10 +4,9 @@ import csv
 import io
 import re
 from contextlib import suppress
-from dataclasses import dataclass
 from html.parser import HTMLParser
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from fieldscribe.importing.cells import clean, one_line
 from fieldscribe.safe_files import read_regular
@@ -28,8 +27,7 @@ class UnreadableError(Exception):
         self.hint = hint
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
+class Row(NamedTuple):
     """One row; line breaks inside a cell are kept."""
 
     line: int
@@ -41,8 +39,7 @@ class Row:
         return tuple(cell for cell in self.cells if cell.strip())
 
 
-@dataclass(frozen=True, slots=True)
-class Table:
+class Table(NamedTuple):
     """A table, its number in the file, and the headings above it.
 
     `heading` is the nearest heading, `section` its number, and `parent` the heading of the section around that one.

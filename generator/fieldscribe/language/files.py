@@ -1,8 +1,8 @@
 """Reads the files of a description and checks their shape: device.yaml, then its parts."""
 
 import os
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from fieldscribe.diagnostics import Report, Span
 from fieldscribe.language.hints import nearest
@@ -17,8 +17,7 @@ _PART_KEYS = frozenset({"group", "points"})
 _NEEDED = ("device", "family", "documents")
 
 
-@dataclass(frozen=True, slots=True)
-class Files:
+class Files(NamedTuple):
     """The mappings of a description, the head first; not `complete` if a part is missing or could not be read."""
 
     maps: tuple[Map, ...]

@@ -2,11 +2,10 @@
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.load import load
@@ -22,8 +21,7 @@ _SAME = str.maketrans({"\u03bc": "\u00b5", "\u2126": "\u03a9"})
 _PREFIX_LETTERS = frozenset("yzafpnµmcdhkMGTPEZY")
 
 
-@dataclass(frozen=True, slots=True)
-class Known:
+class Known(NamedTuple):
     """A shipped unit; 1 of it is `factor` times `base`, the unit without a prefix."""
 
     unit: Unit

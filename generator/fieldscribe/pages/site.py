@@ -8,7 +8,6 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from operator import attrgetter
 from pathlib import Path
 from posixpath import dirname, join, normpath, relpath
@@ -42,8 +41,7 @@ Other targets of links, such as folders, are not delivered: their text stays wit
 """
 
 
-@dataclass(frozen=True, slots=True)
-class Links:
+class Links(NamedTuple):
     """Resolves links: to `pages` by their paths below `root`, and to `devices` that have a page."""
 
     pages: Mapping[str, Page]
@@ -102,8 +100,7 @@ Row = tuple[str, str, str, str]
 """An entry of the search: its anchor, its title, further words, and the heading above it."""
 
 
-@dataclass(frozen=True, slots=True)
-class DeviceView:
+class DeviceView(NamedTuple):
     """A row of the list of devices, in HTML."""
 
     href: str
@@ -163,8 +160,7 @@ class Shelf(NamedTuple):
     pages: tuple[Page, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class LinkView:
+class LinkView(NamedTuple):
     """A link in a list."""
 
     href: str
@@ -172,8 +168,7 @@ class LinkView:
     here: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class PageView:
+class PageView(NamedTuple):
     """A page, in HTML: its heading, the path to the top, the lists of links beside it, and its text."""
 
     path: str

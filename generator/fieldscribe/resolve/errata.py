@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import Any, NamedTuple
 
 from fieldscribe.diagnostics import Span
 from fieldscribe.families import sections_of_codes
@@ -20,8 +20,7 @@ _NAMED = (("frames", "frame"), ("messages", "message"), ("telegrams", "telegram"
 """The sections of named things that an erratum may be about, each with the key that names one."""
 
 
-@dataclass(frozen=True, slots=True)
-class PrintedFact:
+class PrintedFact(NamedTuple):
     """A printed fact that differs from the description.
 
     `about` is its subject, `span` its place. `taken` is the value in the description, None if

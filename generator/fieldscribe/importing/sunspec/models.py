@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from hashlib import sha256
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from fieldscribe.importing.readers import UnreadableError
 from fieldscribe.safe_files import read_regular
@@ -18,8 +18,7 @@ _MOST_BYTES, _MOST_PARTS, _DEEPEST = 4 << 20, 5_000, 6
 """Limits of a file: its bytes, its points and groups, groups within groups."""
 
 
-@dataclass(frozen=True, slots=True)
-class Symbol:
+class Symbol(NamedTuple):
     """The name of a number, or of a bit."""
 
     number: int
@@ -59,8 +58,7 @@ class Group:
     groups: Sequence[Group]
 
 
-@dataclass(frozen=True, slots=True)
-class Model:
+class Model(NamedTuple):
     """A model: its number, its outermost group, and the file that it was read from.
 
     The group has no points for the number and the length: they are the `header` words that every model starts with.

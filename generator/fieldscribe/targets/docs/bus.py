@@ -1,8 +1,7 @@
 """The bus section: functions, exceptions, serial settings, timing, gaps and commands."""
 
-from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 from fieldscribe.families import family
 from fieldscribe.model import Bus, Code, Command, Device, Message, Role, SteppedCommand, Telegram
@@ -12,8 +11,7 @@ from fieldscribe.wording.exact import hex_text
 from fieldscribe.wording.rules import run_text, steps_texts
 
 
-@dataclass(frozen=True, slots=True)
-class BusView:
+class BusView(NamedTuple):
     """The bus section of the page."""
 
     note: str

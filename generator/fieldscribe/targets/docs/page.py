@@ -1,7 +1,6 @@
 """The view of the Markdown reference of a device: its facts, and the map of each space by address."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import fieldscribe
@@ -25,8 +24,7 @@ _NUMBERINGS = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class MapView:
+class MapView(NamedTuple):
     """The points of one space, sorted."""
 
     anchor: str
@@ -34,8 +32,7 @@ class MapView:
     rows: str
 
 
-@dataclass(frozen=True, slots=True)
-class PageView:
+class PageView(NamedTuple):
     """The whole page."""
 
     generated: str

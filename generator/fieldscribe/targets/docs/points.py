@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import partial
 from typing import NamedTuple
 
@@ -46,8 +45,7 @@ _KEEPS = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class ListView:
+class ListView(NamedTuple):
     """A long list of names, and the points that use it."""
 
     anchor: str
@@ -55,8 +53,7 @@ class ListView:
     rows: str
 
 
-@dataclass(frozen=True, slots=True)
-class GroupView:
+class GroupView(NamedTuple):
     """A group of points on the page."""
 
     anchor: str

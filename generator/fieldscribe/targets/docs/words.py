@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import groupby
 from typing import NamedTuple
 
@@ -19,8 +18,7 @@ _SIGN, _BORDERS = 9, 18
 """Estimated widths in pixels: of a row on a page of 1,280, of a character, of the borders of a cell."""
 
 
-@dataclass(frozen=True, slots=True)
-class WordView:
+class WordView(NamedTuple):
     """The bits of a word, and the points with exactly these bits."""
 
     points: str

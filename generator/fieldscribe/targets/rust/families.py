@@ -67,8 +67,7 @@ def nothing(*_: object) -> tuple[()]:
     return ()
 
 
-@dataclass(frozen=True, slots=True)
-class RustFamily:
+class RustFamily(NamedTuple):
     """The object `IN_RUST` of the part `targets.rust` of a family.
 
     `context` is the context of the template `<family>.rs.j2`. `traits` are the lines by which a point implements the

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from typing import NamedTuple
 
 from fieldscribe.lowered import Lowered, lower
@@ -51,8 +50,7 @@ class CratePoint(NamedTuple):
         return f"with::{self.factors_struct}" if self.point.scale_arguments else "()"
 
 
-@dataclass(frozen=True, slots=True)
-class CrateScope:
+class CrateScope(NamedTuple):
     """The state that the points of a device share: the lowered model, the raw types of enums by name, functions.
 
     `device_type` is the type of the device. The telegrams are by name, with the messages that carry them.
