@@ -70,6 +70,11 @@ def store(package: Package, vector: Vector) -> bool:
     return write(package, vector, keep=True)
 
 
+def alone(package: Package, vector: Vector) -> bool:
+    """What the device takes only with other points: one alone is refused before any request."""
+    return write(package, {**vector, "script": [], "needs": {}, "words": []})
+
+
 def command(package: Package, vector: Vector) -> bool:
     """A named write."""
     for kind, script in ((package.device, Script), (package.awaited, AsyncScript)):
@@ -125,5 +130,12 @@ def _refuses(kind: Any, transport: Script, vector: Vector, link: tuple[Any, ...]
     return False
 
 
-CHECKS: Mapping[str, Check] = {"read": read, "write": write, "store": store, "command": command, "variant": variant}
+CHECKS: Mapping[str, Check] = {
+    "read": read,
+    "write": write,
+    "store": store,
+    "alone": alone,
+    "command": command,
+    "variant": variant,
+}
 """The checks of this theme by the kind of vector."""

@@ -30,8 +30,19 @@ fieldscribe_runtime::point! {
     write { count i32; }
 }
 
+fieldscribe_runtime::point! {
+    /// A word that the device takes only with two others.
+    Paired: u16 = "paired";
+    at Holding 0x0004;
+    written_with ["placed", "word"];
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+}
+
 const CHAIN: Chain = Chain::new(3, &[0x5375, 0x6E53], &[40000, 0], 0xFFFF);
 const SEVENTH: FoundBlock = FoundBlock::new("blocks_7", &CHAIN, 7);
+const ALONE: &str = "paired: `Request::write_values` writes it in one request with placed, word";
 const SLOTS: &[Given] = &[Given::new(1, 15, 1000), Given::new(0, 3, -10)];
 const SLOT: GivenBase = GivenBase::new("blocks_7", 100, SLOTS);
 
@@ -688,6 +699,12 @@ macro_rules! conversations {
             assert_eq!($wait(client.update::<Group>(0xFFFF)), wrong);
             assert_eq!($wait(client.update::<Group>(7)), lost("Group"));
             assert_eq!($wait(client.update::<Group>(7)), lost("Group"));
+            let alone = $wait(client.write_point(<Paired as Point>::INFO, 7)).unwrap_err();
+            assert_eq!(
+                (alone.name(), alone.point()),
+                ("not_together", Some("paired"))
+            );
+            assert_eq!(alone.to_string(), ALONE);
             client.into_transport().done();
             let line = Line::new(&[
                 step("0010002000020400010003", ""),

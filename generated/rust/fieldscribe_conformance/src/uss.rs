@@ -23,7 +23,7 @@ fn waiting(vector: &Vector, profile: &'static Profile, _base: &str) -> AsyncClie
     AsyncClient::for_profile(script, profile, link(vector), unit)
 }
 
-with_clients!(Script, Parameter);
+with_clients!(Script, Parameter, Parameter);
 
 /// A request into bytes. What a value cannot be in Rust is refused here.
 pub fn build(vector: &Vector, profile: &Profile) -> Outcome {

@@ -42,6 +42,13 @@ pub enum Error {
         /// The points whose raw numbers it needs; empty if they depend on the variant of the device.
         needs: &'static [&'static PointFacts],
     },
+    /// The device takes the point only together with others, in one request.
+    NotTogether {
+        /// The name of the point.
+        point: &'static str,
+        /// The names of the others.
+        with: &'static [&'static str],
+    },
     /// The closed enum does not have this number, or the point this code.
     UnknownValue(Outside<i64>),
     /// The text is too long, or has a character outside its encoding.
@@ -151,6 +158,7 @@ impl Error {
             Self::OutOfRange(_) | Self::BadText(_) | Self::BadDate(_) => "out_of_range",
             Self::NotANumber(_) | Self::UnknownName { .. } => "not_a_number",
             Self::UnknownValue(_) => "unknown_value",
+            Self::NotTogether { .. } => "not_together",
             Self::ZeroFactor(_) => "zero_factor",
             Self::NoCase(_) => "no_case",
             Self::Overflow(_) | Self::BrokenFactor { .. } => "overflow",
@@ -187,6 +195,7 @@ impl Error {
             Self::NotANumber(point)
             | Self::UnknownName { point, .. }
             | Self::Missing { point, .. }
+            | Self::NotTogether { point, .. }
             | Self::Special { point, .. }
             | Self::Access(point, _) => Some(point),
             Self::BadText(point)
@@ -295,6 +304,10 @@ impl fmt::Display for Error {
             }
             Self::UnknownName { given, names, .. } => return unknown(*given, names, formatter),
             Self::Missing { needs, .. } => return missing(needs, formatter),
+            Self::NotTogether { with, .. } => {
+                let before = "`Request::write_values` writes it in one request with ";
+                return listed(before, with.iter().copied(), formatter);
+            }
             Self::NotANumber(_) => "the value is not a number",
             Self::BadText(_) => {
                 "the text is too long, or has a character that is none of its encoding"
@@ -343,9 +356,17 @@ const MOST_NAMES: usize = 6;
 /// Writes the points whose raw numbers are missing.
 fn missing(needs: &[&PointFacts], formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
     formatter.write_str("the raw numbers of other points are missing")?;
-    let mut before = ": ";
-    for point in needs {
-        write!(formatter, "{before}{}", point.name)?;
+    listed(": ", needs.iter().map(|point| point.name), formatter)
+}
+
+/// Writes names, with commas between them.
+fn listed(
+    mut before: &str,
+    names: impl Iterator<Item = &'static str>,
+    formatter: &mut fmt::Formatter<'_>,
+) -> fmt::Result {
+    for name in names {
+        write!(formatter, "{before}{name}")?;
         before = ", ";
     }
     Ok(())

@@ -7,7 +7,8 @@
 ///
 /// - its attributes, its type, `[of Device]`, the type of its raw number, its name in the description \[and its code\];
 /// - the space and the (lowest) address, `[from "base"]`: what it counts from, `[selects Page 1]`: what other points
-///   must hold before the address means this one, `[addresses [...]]` in reading order, `[words 2]`,
+///   must hold before the address means this one, `[written_with ["other"]]`: what one request writes together with
+///   the point, `[addresses [...]]` in reading order, `[words 2]`,
 ///   `[width 24]`: the bits of a number narrower than its type, `[low_byte_first true]` of each word,
 ///   `[coded true]`: a [coding](crate::coding) of its own,
 ///   `[write_at 0x2028]`: where it is written, if that is elsewhere, `[index 1]`,
@@ -53,6 +54,7 @@ macro_rules! point {
         $name:ident $(of $device:ty)?: $raw:ty = $item:literal $(, $code:literal)?;
         at $space:ident $(($other:literal))? $address:literal $(from $base:literal)?;
         $(selects $($selecting:ident $held:literal),+;)?
+        $(written_with $together:tt;)?
         $(addresses $addresses:tt;)?
         $(words $words:literal;)?
         $(width $width:literal;)?
@@ -89,6 +91,7 @@ macro_rules! point {
             const ADDRESS: u16 = $address;
             $(const BASE: &'static str = $base;)?
             $(const SELECTS: &'static [$crate::Selection] = &[$($crate::Selection::of::<$selecting>($held)),+];)?
+            $(const WRITTEN_WITH: &'static [&'static str] = &$together;)?
             $(const ADDRESSES: &'static [u16] = &$addresses;)?
             $(const WORDS: u16 = $words;)?
             $(const WIDTH: u32 = $width;)?
@@ -123,6 +126,7 @@ macro_rules! point {
         }
 
         $crate::point!(@placed $name $($shift $mask)?);
+        $crate::point!(@alone $name $($together)?);
         $crate::point!(@form $form $name $kind ($($low $high)?) $facts);
         $($crate::point!(@codes $name $raw, $codes);)?
         $($crate::point!(@display $name $raw, $kind $form $display);)?
@@ -220,6 +224,11 @@ macro_rules! point {
             const MASK: u16 = $mask;
         }
     };
+
+    (@alone $name:ident) => {
+        impl $crate::WrittenAlone for $name {}
+    };
+    (@alone $name:ident $together:tt) => {};
 
     (@numberings $name:ident) => {};
     (@numberings $name:ident $($numbering:ident $type:ty, $number:literal;)+) => {

@@ -51,6 +51,8 @@ def rows_of(subject: CratePoint, enum: str, scope: CrateScope) -> Iterator[Row]:
     yield Spot("address", "address"), row_of(subject, _references(point))
     if point.display is not None:
         yield Spot("told", "told"), _read(subject)
+    if point.write_with and point.text is None:
+        yield Spot("alone", "alone"), row_of(subject, ("(wire)",))
     if point.addresses:
         yield from _exchanges(subject, scope)
     for kind in in_rust(scope.family).kinds(subject, scope):
@@ -126,7 +128,7 @@ def _ways(subject: CratePoint, scope: CrateScope) -> Iterator[Way]:
     text = "_text" if point.form == "text" else ""
     if point.telegram is None and point.readable:
         yield "read", f"read{text}", ()
-    if point.telegram is None and point.writable:
+    if point.telegram is None and point.writable and not point.write_with:
         yield "write", *change_of(subject, "write", "update")
     yield from in_rust(scope.family).ways(subject, scope)
 

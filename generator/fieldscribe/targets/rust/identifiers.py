@@ -15,7 +15,7 @@ CONSTANTS = frozenset(
     | {"decimals", "display_decimals", "read_function", "write_function", "write_address", "access", "group", "info"}
     | {"telegram", "index", "addresses", "numbers", "fixed_bits", "fixed_mask", "is_grouped", "codes", "floating"}
     | {"low_byte_first", "coded", "is_closed", "is_contiguous", "is_wide", "raw_reach", "scale", "facts", "epoch"}
-    | {"selects", "span"}
+    | {"selects", "span", "written_with"}
 )
 """Associated constants of the point traits, which a constant of the description could hide; a test compares them."""
 

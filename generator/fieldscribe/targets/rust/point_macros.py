@@ -147,13 +147,20 @@ def _names_runtime(subject: CratePoint) -> bool:
     return point.text is not None or bool(point.scale_arguments) or (point.writable and checked)
 
 
+def _requests(point: Point, scope: CrateScope) -> Iterator[str]:
+    """Yield the facts about what goes out before the request of a point, and with it."""
+    held = [f"{type_name(other.item)} {integer(raw)}" for other, raw in scope.lowered.device.selections(point)]
+    partners = [*map(rust_string, point.write_with)]
+    for fact, items, end in (("selects ", held, ";"), ("written_with [", partners, "];")):
+        if items:
+            yield "\n    ".join(filled(fact, ", ", items, end))
+
+
 def _whereabouts(point: Point, fields: MacroFields, scope: CrateScope) -> Iterator[str]:
-    """Yield the facts about addresses, what selects them, index, telegram and constant bits."""
+    """Yield the facts about addresses, what goes before and with them, index, telegram and constant bits."""
     counted = f" from {rust_string(point.base)}" if point.base else ""
     yield f"at {space_variant(point.space)} {fields.address}{counted};"
-    if point.selects:
-        held = [f"{type_name(other.item)} {integer(raw)}" for other, raw in scope.lowered.device.selections(point)]
-        yield "\n    ".join(filled("selects ", ", ", held, ";"))
+    yield from _requests(point, scope)
     if fields.addresses:
         yield fields.addresses
     if point.words != 1:

@@ -60,7 +60,15 @@ class Exchanges:
         if encoding.shape.readable:
             for sent, received in zip(typical.sent, typical.received, strict=True):
                 self._add("read", point, typical, sent, self.wire.reads(point, received))
-        for kind in ("write", "store") if encoding.shape.writable and not point.write_with else ():
+        if point.write_with:
+            if encoding.shape.text is None:
+                self.lines.add("alone", typical.sent[0][0], "not_together")
+        elif encoding.shape.writable:
+            self._writes(point, encoding, typical)
+
+    def _writes(self, point: Point, encoding: PointEncoding, typical: _Typical) -> None:
+        """Add the exchanges that write a point, also permanently."""
+        for kind in ("write", "store"):
             for raw, words in typical.sent:
                 put = words
                 if point.write_place is not None:  # if the words may be in another order

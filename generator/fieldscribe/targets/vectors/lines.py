@@ -73,6 +73,8 @@ KINDS = {
     "read": _EXCHANGE,
     "write": _EXCHANGE,
     "store": _EXCHANGE,
+    # what nothing is sent for: a point that the device takes only with others; C has no function that writes it
+    "alone": "only:python.rust.typescript raw:int status:word",
     # facts that only Python has in code: in C and Rust they are comments, which no program can check
     "facts": "only:python.typescript group:word name:word type:word symbol:text? default:real? changes:word? "
     "changes_with:names? variant:text? only_for:names? uncertain:int? keeps:word? conditions:names? write_space:word? "

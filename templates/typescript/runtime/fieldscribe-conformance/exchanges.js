@@ -347,6 +347,7 @@ export const EXCHANGE_CHECKS = {
   read: readFollows,
   write: writeFollows,
   store: (device, vector) => writeFollows(device, vector, { keep: true }),
+  alone: (device, vector) => writeFollows(device, { ...vector, script: [] }),
   command: commandFollows,
   build: modbusBuilds,
   reply: modbusParses,

@@ -85,7 +85,7 @@ fn waiting(vector: &Vector, profile: &'static Profile, _base: &str) -> AsyncClie
     AsyncClient::for_profile(Bus::new(vector), profile, vector.raw("unit"))
 }
 
-with_clients!(Bus, Parameter);
+with_clients!(Bus, Parameter, Parameter);
 
 /// A parameter that cannot be read is written as it is.
 pub fn write_only<P>(vector: &Vector, profile: &'static Profile) -> Outcome

@@ -34,12 +34,12 @@ macro_rules! both {
     }};
 }
 
-/// What the clients of a family do with points of the trait `$reach`.
+/// What the clients of a family do with points of the trait `$reach`; they write those of `$alone`.
 ///
 /// The family's module has `blocking` and `waiting`, the two clients over the script of a vector. Each point is tried
 /// with the client that blocks; the module of the family's clients shows that the other one has the same methods.
 macro_rules! with_clients {
-    ($line:ty, $reach:path) => {
+    ($line:ty, $reach:path, $alone:path) => {
         /// What the client that blocks does with the script of the vector.
         fn blocked<T>(
             vector: &Vector,
@@ -103,7 +103,7 @@ macro_rules! with_clients {
             with: P::With,
         ) -> Outcome
         where
-            P: Readable<Raw: Number, Value: Copy> + Encodable<With: Copy> + Whole + $reach,
+            P: Readable<Raw: Number, Value: Copy> + Encodable<With: Copy> + Whole + $alone,
         {
             let value = P::decode_with(vector.raw("raw"), factors)
                 .into_result()
@@ -117,7 +117,7 @@ macro_rules! with_clients {
         /// A text is written.
         pub fn write_text<P>(vector: &Vector, profile: &'static Profile) -> Outcome
         where
-            P: Readable<Factors = (), Value: Copy> + Encodable<With = ()> + Whole + $reach,
+            P: Readable<Factors = (), Value: Copy> + Encodable<With = ()> + Whole + $alone,
         {
             let words: Vec<u16> = vector.numbers("words");
             let raw = P::from_received(words.into_iter()).map_err(Error::name)?;
@@ -132,7 +132,7 @@ macro_rules! with_clients {
             P: Readable<Raw: Number, Factors = (), Value: Copy>
                 + Encodable<With = ()>
                 + BitGroup
-                + $reach,
+                + $alone,
         {
             let value = P::decode(vector.raw("raw"))
                 .into_result()

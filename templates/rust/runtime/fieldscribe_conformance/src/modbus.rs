@@ -6,8 +6,8 @@ use fieldscribe_runtime::modbus::{
     SteppedCommand, LONGEST,
 };
 use fieldscribe_runtime::{
-    BitGroup, BuildError, ClientError, Decoded, Encodable, Error, PointInfo, Readable, ReplyError,
-    Whole, Writable,
+    BitGroup, BuildError, ClientError, Decoded, Encodable, Error, Point, PointInfo, Readable,
+    ReplyError, Whole, Writable, WrittenAlone,
 };
 
 use super::clients::exchanged;
@@ -40,7 +40,11 @@ fn waiting(vector: &Vector, profile: &'static Profile, name: &'static str) -> As
     client
 }
 
-with_clients!(Script, fieldscribe_runtime::Point);
+with_clients!(
+    Script,
+    fieldscribe_runtime::Point,
+    fieldscribe_runtime::WrittenAlone
+);
 
 /// A request into bytes.
 pub fn build(vector: &Vector, profile: &Profile) -> Outcome {
@@ -95,7 +99,7 @@ fn framing(vector: &Vector) -> Framing {
 /// A point that cannot be read is written as it is; one that others select by a client, which writes these first.
 pub fn write_only<P>(vector: &Vector, profile: &'static Profile) -> Outcome
 where
-    P: Writable<Raw: Number> + Whole,
+    P: Writable<Raw: Number> + Whole + WrittenAlone,
 {
     if !P::SELECTS.is_empty() {
         same(
@@ -109,6 +113,14 @@ where
     let mut client = Client::for_profile(Script::new(vector), profile, framing(vector), unit);
     let found = client.exchange(request).map(|_| ());
     exchanged(vector, found, &client.into_transport()).map(|_| ())
+}
+
+/// What the device takes only with other points is not written alone, before any request.
+pub fn alone<P: Point>(vector: &Vector, profile: &'static Profile) -> Outcome {
+    let raw = vector.number("raw").unwrap_or_default();
+    both!(vector, profile, P::BASE, |client| client
+        .write_point(P::INFO.any(), raw));
+    same(false, P::INFO.written_with().is_empty())
 }
 
 /// A command.

@@ -33,6 +33,8 @@ macro_rules! made_up {
             const WORDS: u16 = $words;
         }
 
+        impl fieldscribe_runtime::WrittenAlone for $name {}
+
         impl fieldscribe_runtime::Readable for $name {
             type Factors = ();
             type Output<V> = Result<V, fieldscribe_runtime::Error>;

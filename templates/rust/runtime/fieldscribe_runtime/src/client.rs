@@ -329,7 +329,7 @@ macro_rules! data_methods {
         /// shares with others, first.
         ///
         /// # Errors
-        /// What encoding says, and what the bus does.
+        /// [`NotTogether`](crate::Error::NotTogether) if the device takes the point only with others; what encoding says, and what the bus does.
         pub $($async)? fn write_point<'v, P>(
             &mut self,
             point: PointInfo<P>,
@@ -338,6 +338,7 @@ macro_rules! data_methods {
         where
             D: Accepts<P>,
         {
+            point.written_alone()?;
             let value = value.into();
             let (raws, count) = self.raws_of(point.write_needs().any())$($wait)*?;
             let raw = point.encode(value, raws.get(..count).unwrap_or(&raws))?;

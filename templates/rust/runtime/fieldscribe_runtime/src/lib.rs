@@ -63,7 +63,7 @@ pub use info::{Access, PointInfo, Points};
 pub use point::{
     group, in_address_order, in_reading_order, signed_group, BitGroup, CountReadable,
     CountWritable, Decoded, Digits, Documented, Encodable, EncodableAlone, FixedScale, Named,
-    NeedsNothing, Point, Readable, Scaled, Space, Whole, Writable,
+    NeedsNothing, Point, Readable, Scaled, Space, Whole, Writable, WrittenAlone,
 };
 pub use raw::Raw;
 pub use rule::Rule;

@@ -90,6 +90,8 @@ pub trait Point: Sized {
     const BASE: &'static str = "";
     /// What other points must hold before the address means this one: clients write it.
     const SELECTS: &'static [Selection] = &[];
+    /// The points that the device takes together with this one, in one request; empty if it takes this one alone.
+    const WRITTEN_WITH: &'static [&'static str] = &[];
     /// The addresses of all words in reading order: the high part or the first characters first.
     const ADDRESSES: &'static [u16] = &[Self::ADDRESS];
     /// The number of items of the request that reads the point; too many for any request if its words are not adjacent.
@@ -206,6 +208,14 @@ pub trait BitGroup: Point<Raw: Raw<Words = [u16; 1]>> {
         ordered::<Self>((word & !low_word(Self::FIXED_MASK)) | low_word(Self::FIXED_BITS))
     }
 }
+
+/// A point that the device takes alone: nothing in [`Point::WRITTEN_WITH`].
+#[diagnostic::on_unimplemented(
+    message = "the device takes the point `{Self}` only together with others, in one request",
+    label = "`{Self}` is not written alone: `{Self}::WRITTEN_WITH` names the others",
+    note = "`Request::write_values` takes the words of all"
+)]
+pub trait WrittenAlone: Point {}
 
 /// The bits of the group in `word`, right-aligned.
 #[must_use]

@@ -82,6 +82,18 @@ impl PointFacts {
         }
     }
 
+    /// Nothing, for a point that the device takes alone.
+    ///
+    /// # Errors
+    /// [`Error::NotTogether`].
+    pub(crate) fn written_alone(&self) -> Result<(), Error> {
+        let (point, with) = (self.name, self.written_with());
+        match with {
+            [] => Ok(()),
+            _ => Err(Error::NotTogether { point, with }),
+        }
+    }
+
     /// What may be written to a point that is written.
     ///
     /// # Errors

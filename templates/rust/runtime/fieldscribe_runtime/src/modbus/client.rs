@@ -21,7 +21,7 @@ use crate::{
 };
 use crate::{
     NeedsNothing, OtherDevice, Point, PointFacts, PointInfo, Points, Raw, Readable, ReplyError,
-    Selection, Variants, Whole, Writable,
+    Selection, Variants, Whole, Writable, WrittenAlone,
 };
 
 /// One unit of a bus: numbers the requests and stores the frames.
@@ -279,12 +279,12 @@ macro_rules! client {
             }
 
             write_methods! {
-                [$($async)?], [$($wait)*], "Writes a value to a point.", put for Point, ClientError<T::Error>;
+                [$($async)?], [$($wait)*], "Writes a value to a point.", put for WrittenAlone, ClientError<T::Error>;
                 write write_with write_count write_count_with write_raw write_raw_with
             }
 
             /// Writes a checked raw number.
-            $($async)? fn put<P: Writable + Whole>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>> {
+            $($async)? fn put<P: Writable + Whole + WrittenAlone>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>> {
                 let words = P::to_words(raw);
                 let mut request = Request::write_words::<P>(self.unit.number, counted::<P>(words.as_ref()));
                 if !P::SELECTS.is_empty() {
@@ -379,7 +379,7 @@ macro_rules! client {
             /// Any [`ClientError`].
             pub $($async)? fn update<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
-                P: Readable + EncodableAlone + BitGroup,
+                P: Readable + EncodableAlone + BitGroup + WrittenAlone,
                 D: Accepts<P::Device>,
             {
                 let raw = P::encode(value)?;

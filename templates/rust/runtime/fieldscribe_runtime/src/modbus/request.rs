@@ -4,7 +4,7 @@
 use super::function::{is_read, read_function, write_function};
 use super::{crc, Base, Block, Command, Framing, Profile};
 use crate::point::counted;
-use crate::{About, BitGroup, BuildError, Point, Readable, Whole, Writable};
+use crate::{About, BitGroup, BuildError, Point, Readable, Whole, Writable, WrittenAlone};
 
 /// The shortest request over TCP: a head of six bytes, the unit, and a PDU of five.
 ///
@@ -74,7 +74,7 @@ impl Request<'static> {
 
     /// A request that writes a point's raw number; [`Request::write_words`] writes texts of more than four words.
     #[must_use]
-    pub fn write<P: Writable + Whole>(unit: u8, raw: P::Raw) -> Self {
+    pub fn write<P: Writable + Whole + WrittenAlone>(unit: u8, raw: P::Raw) -> Self {
         let function = writing_function::<P>();
         Self::own(
             unit,
@@ -87,7 +87,7 @@ impl Request<'static> {
 
     /// A request that writes a word back with a group of its bits replaced.
     #[must_use]
-    pub fn update<P: Writable + BitGroup>(unit: u8, word: u16, raw: P::Raw) -> Self {
+    pub fn update<P: Writable + BitGroup + WrittenAlone>(unit: u8, word: u16, raw: P::Raw) -> Self {
         let function = writing_function::<P>();
         Self::own(unit, function, P::WRITE_ADDRESS, &[P::insert(word, raw)]).of::<P>()
     }
@@ -122,7 +122,7 @@ impl Request<'static> {
 impl<'a> Request<'a> {
     /// A request that writes a point's words, as [`Whole::to_words`] gives them.
     #[must_use]
-    pub fn write_words<P: Writable + Whole>(unit: u8, words: &'a [u16]) -> Self {
+    pub fn write_words<P: Writable + Whole + WrittenAlone>(unit: u8, words: &'a [u16]) -> Self {
         Self::write_values(unit, writing_function::<P>(), P::WRITE_ADDRESS, words).of::<P>()
     }
 
