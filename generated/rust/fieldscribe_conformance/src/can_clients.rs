@@ -475,12 +475,12 @@ macro_rules! conversations {
                     vec![noise, answered(0x0103, 8), answered(0x0102, 7)],
                 ),
                 (asked(0x0102), vec![answered(0x0102, 0xFFFF)]),
-                (asked(0x0202), vec![answered(0x0202, 1)]),
                 (asked(0x0201), vec![answered(0x0201, 2)]),
+                (asked(0x0202), vec![answered(0x0202, 1)]),
                 (change(0x0102, 8), vec![answered(0x0102, 8)]),
                 (change(0x0102, 9), vec![answered(0x0102, 8)]),
-                (change(0x0202, 3), vec![answered(0x0202, 3)]),
                 (change(0x0201, 4), vec![answered(0x0201, 4)]),
+                (change(0x0202, 3), vec![answered(0x0202, 3)]),
                 (asked(0x0030), vec![answered(0x0030, 0xABCD)]),
                 (change(0x0030, 0xAB7D), vec![answered(0x0030, 0xAB7D)]),
                 (change(0x0030, 1), vec![]),
@@ -544,8 +544,8 @@ macro_rules! conversations {
             let bus = Bus::new(&[
                 (asked(0x0102), vec![answered(0x0102, 7)]),
                 (change(0x0102, 8), vec![answered(0x0102, 8)]),
-                (change(0x0202, 3), vec![answered(0x0202, 3)]),
                 (change(0x0201, 4), vec![answered(0x0201, 4)]),
+                (change(0x0202, 3), vec![answered(0x0202, 3)]),
             ]);
             let mut client = $client::for_profile(bus, &PROFILE, 5);
             assert_eq!($wait(client.read_count::<Word>()), Ok([7]));

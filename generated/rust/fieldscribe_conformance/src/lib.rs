@@ -1153,8 +1153,6 @@ pub struct Script {
     head: usize,
     /// Whether all came in the order of the script so far.
     in_order: bool,
-    /// Only Modbus has pages, which are selected before; the words of a text on CAN may come in any order.
-    any_order: bool,
     steps: Vec<(Vec<u8>, Vec<u8>)>,
     fault: Option<String>,
 }
@@ -1165,15 +1163,10 @@ impl Script {
         let _ = vector.field("needs");
         let steps = vector.pairs("script").into_iter();
         let steps = steps.map(|(sent, received)| (bytes(&sent), bytes(&received)));
-        let framing = vector.said("framing");
+        let is_tcp = vector.said("framing").as_deref() == Some("tcp");
         Self {
-            head: if framing.as_deref() == Some("tcp") {
-                2
-            } else {
-                0
-            },
+            head: if is_tcp { 2 } else { 0 },
             in_order: true,
-            any_order: framing.is_none(),
             steps: steps.collect(),
             fault: None,
         }
@@ -1189,7 +1182,7 @@ impl Script {
         if place.is_none() {
             self.fault = Some(format!("sent {}", hex(request)));
         }
-        self.in_order &= self.any_order || place == Some(0);
+        self.in_order &= place == Some(0);
         let (sent, mut answer) = self.steps.remove(place?);
         let own = sent.iter().zip(request).take(self.head);
         for (byte, (one, other)) in answer.iter_mut().zip(own) {

@@ -329,7 +329,8 @@ macro_rules! data_methods {
         /// shares with others, first.
         ///
         /// # Errors
-        /// [`NotTogether`](crate::Error::NotTogether) if the device takes the point only with others; what encoding says, and what the bus does.
+        /// [`NotTogether`](crate::Error::NotTogether) if the device takes the point only with others; what encoding
+        /// says, and what the bus does.
         pub $($async)? fn write_point<'v, P>(
             &mut self,
             point: PointInfo<P>,

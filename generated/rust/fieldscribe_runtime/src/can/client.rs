@@ -7,7 +7,7 @@ use core::marker::PhantomData;
 use super::{Dialogue, Frame, Message, Parameter, Profile, Received, Receiver, Telegram};
 use crate::client::{data_methods, read_methods, write_methods, MOST_NEEDS};
 use crate::identification::{divided, holds, NOTHING_HELD};
-use crate::point::{joined, split};
+use crate::point::{ascending, in_address_order, in_reading_order};
 use crate::trace::{self, Way};
 use crate::{
     Accepts, AnyDevice, AnyValue, BitGroup, BuildError, ClientError, CountReadable, CountWritable,
@@ -422,10 +422,10 @@ macro_rules! client {
                 P: Readable + Parameter,
             {
                 let mut words = P::Raw::MIN.into_words();
-                for (place, address) in words.as_mut().iter_mut().zip(P::ADDRESSES) {
-                    *place = self.read_word(*address)$($wait)*.map_err(ClientError::of::<P>)?;
+                for (place, address) in words.as_mut().iter_mut().zip(ascending(P::ADDRESSES)) {
+                    *place = self.read_word(address)$($wait)*.map_err(ClientError::of::<P>)?;
                 }
-                *raw = joined::<P>(words);
+                *raw = P::from_words(words);
                 Ok(())
             }
 
@@ -443,9 +443,9 @@ macro_rules! client {
 
             /// Writes a checked raw number, word by word.
             $($async)? fn put<P: Whole + Parameter>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>> {
-                let words = split::<P>(raw);
-                for (word, address) in words.as_ref().iter().zip(P::ADDRESSES) {
-                    self.write_word(*address, *word)$($wait)*.map_err(ClientError::of::<P>)?;
+                let words = P::to_words(raw);
+                for (word, address) in words.as_ref().iter().zip(ascending(P::ADDRESSES)) {
+                    self.write_word(address, *word)$($wait)*.map_err(ClientError::of::<P>)?;
                 }
                 Ok(())
             }
@@ -474,10 +474,10 @@ macro_rules! client {
             ) -> Result<[u16; N], ClientError<T::Error>> {
                 point.outside_telegrams()?;
                 let mut words = [0; N];
-                for (place, address) in words.iter_mut().zip(point.addresses) {
-                    *place = self.read_word(*address)$($wait)*?;
+                for (place, address) in words.iter_mut().zip(ascending(point.addresses)) {
+                    *place = self.read_word(address)$($wait)*?;
                 }
-                Ok(words)
+                Ok(in_reading_order(words, point.addresses))
             }
 
             /// Writes a checked raw number to a parameter as data, word by word.
@@ -487,9 +487,9 @@ macro_rules! client {
                 if point.mask.is_some() {
                     word = self.read_word(point.address)$($wait)*?;
                 }
-                let words = point.words_of(raw, word)?;
-                for (word, address) in words.iter().zip(point.addresses) {
-                    self.write_word(*address, *word)$($wait)*?;
+                let words = in_address_order(point.words_of(raw, word)?, point.addresses);
+                for (word, address) in words.iter().zip(ascending(point.addresses)) {
+                    self.write_word(address, *word)$($wait)*?;
                 }
                 Ok(())
             }

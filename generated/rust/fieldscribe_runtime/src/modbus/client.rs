@@ -284,7 +284,10 @@ macro_rules! client {
             }
 
             /// Writes a checked raw number.
-            $($async)? fn put<P: Writable + Whole + WrittenAlone>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>> {
+            $($async)? fn put<P>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>>
+            where
+                P: Writable + Whole + WrittenAlone,
+            {
                 let words = P::to_words(raw);
                 let mut request = Request::write_words::<P>(self.unit.number, counted::<P>(words.as_ref()));
                 if !P::SELECTS.is_empty() {

@@ -597,6 +597,15 @@ pub fn in_address_order<W: Copy + AsRef<[u16]> + AsMut<[u16]>>(words: W, address
     found
 }
 
+/// Addresses in ascending order, in which words that need a request each are read and written.
+pub(crate) fn ascending(addresses: &'static [u16]) -> impl Iterator<Item = u16> {
+    let above = move |last: i32| {
+        let others = addresses.iter().copied();
+        others.filter(|address| i32::from(*address) > last).min()
+    };
+    core::iter::successors(above(-1), move |last| above((*last).into()))
+}
+
 /// The number of addresses below one.
 #[inline]
 fn rank(addresses: &[u16], address: u16) -> usize {
