@@ -159,10 +159,10 @@ CLAIMS = {
     },
     "identify": {
         "--line tcp://192.168.0.20": Claim(
-            1, "it is not fronius_datamanager: .*\ncannot be told, for want of `identify` in the description: "
+            1, "it is not fronius_datamanager: .*\nnot asked for, as their descriptions have no `identify`: "
         ),
         "fronius_datamanager --line tcp://192.168.0.20 --unit 1": Claim(1, "it is not fronius_datamanager: "),
-        "pump": Claim(1, "^cannot be told, for want of `identify` in the description: hitachi_l200\n$"),
+        "pump": Claim(1, "^not asked for, as their descriptions have no `identify`: hitachi_l200\n$"),
     },
     "snapshot": {
         "hitachi_l200 --line tcp://192.168.0.20 --out before.json": Claim(0, "^234 points in before.json\n$"),

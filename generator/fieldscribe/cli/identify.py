@@ -94,6 +94,6 @@ def _lines(fits: dict[str, dict[str, str]], others: dict[str, str], silent: list
     for name, why in others.items():
         yield [("", f"it is not {name}: {visible(why)}")]
     if silent:
-        yield [("hint", f"cannot be told, for want of `identify` in the description: {', '.join(silent)}")]
+        yield [("hint", f"not asked for, as their descriptions have no `identify`: {', '.join(silent)}")]
     if not (fits or others or silent):
         yield [("", "no known device has such a line")]

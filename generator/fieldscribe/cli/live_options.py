@@ -71,7 +71,8 @@ def line_of(arguments: Namespace) -> LineAddress:
         _take(arguments, station)
     if not arguments.line:
         none = "" if station or not arguments.device else f", and `{shortened(arguments.device)}` is no station"
-        raise StopError(f"no line is given{none}", f"give --line tcp://HOST:PORT, or name stations in {NAME}")
+        near = did_you_mean(get_close_matches(arguments.device or "", project.stations, 1))
+        raise StopError(f"no line is given{none}", near or f"give --line tcp://HOST:PORT, or name stations in {NAME}")
     return read_line(_named(arguments.line, project))
 
 

@@ -53,6 +53,8 @@ def choose_point(device: Device, text: str, *, index: int | None = None, any_var
 
     `index` chooses one element of an array. With `any_variant`, variants with the same meaning count as one point.
     """
+    if not text.strip():
+        raise UnclearError("no point is named", "give its code, name or address")
     matches = find(device, text if index is None else f"{text}[{index}]")
     if index is not None and not matches:
         elements = dict.fromkeys(

@@ -131,6 +131,8 @@ class Planner:
         point = choose_point(self._model, name.removesuffix(".raw"))
         keep = self._keep and self._kept_by_request(point)
         require_writable(point)
+        if not value.strip() and point.text is None:
+            raise UnclearError(f"{label(point)}: the value is missing", "write POINT=VALUE")
         self._require_existence(point)
         settings = self._needed(point)
         encoded = encode_point(self._model, point, value, settings, as_raw=name.endswith(".raw"))

@@ -166,7 +166,9 @@ class _Reader:
         return Amount(Number(Fraction(known[expression.name]), expression.column), {})
 
     def _amount(self, written: conditions.Amount, span: Span) -> Amount:
-        """Return an expression with its names resolved. Raises FactError."""
+        """Return an expression with its names resolved. Raises FactError or FormulaError."""
+        if (column := _zero_divisor(written.expression)) is not None:
+            raise FormulaError("division by zero", written.column + column, "divide by another number")
         refs = {}
         for name in names(written.expression):
             place = span.moved(written.column + name.column, len(name.name))
@@ -280,6 +282,19 @@ def _units_of(text: str) -> Dimension:
     """Return the units of a symbol such as `Hz/s`, each with its power."""
     above, _, below = text.partition("/")
     return {symbol: power for symbol, power in ((above, 1), (below, -1)) if symbol not in ("", "1")}
+
+
+def _zero_divisor(expression: Expression) -> int | None:
+    """Return the column of a constant 0 by which an expression divides; None if there is none."""
+    match expression:
+        case Binary("/", _, Number(value, column)) if value == 0:
+            return column
+        case Binary(_, left, right):
+            column_left = _zero_divisor(left)
+            return _zero_divisor(right) if column_left is None else column_left
+        case Negate(operand):
+            return _zero_divisor(operand)
+    return None
 
 
 def _dimension(expression: Expression, refs: Mapping[Name, Ref]) -> Dimension:

@@ -148,7 +148,8 @@ def _comparison(parser: Parser) -> Comparison:
     parser.take()
     constant = _constant(parser)
     if isinstance(constant.value, str) and op.text not in ("==", "!="):
-        raise FormulaError("a word has no order", constant.column, "compare it with == or !=")
+        hint = "compare a word with == or !=; two points are not compared"
+        raise FormulaError(f"`{constant.value}` is no number and has no order", constant.column, hint)
     return Comparison(name, op.text, (constant,), op.column, key)
 
 
@@ -211,6 +212,7 @@ def _opposite(comparison: Comparison) -> Clauses:
 
 _WORD = re.compile(r"(?:^|(?<=\s))(set|ramp to|down at|at|while|when|after)(?=\s|$)")
 _ORDER = re.compile(r"(set|ramp to at( down at)?)( while| when)?( after)?")
+_DOWN = re.compile(r",\s*(down)\b(?!\s+at\b)")
 _HOW = "write `set …` or `ramp to … at …`; after it `, down at …`, `while …` or `when …`, `after …` as needed"
 _WITH_UNIT = re.compile(r"(.*[\w)])\s+([^\W\d][^\s/]*(?:/[a-z]+)?|[%°‰][^\s/]*(?:/[a-z]+)?)")
 
@@ -261,6 +263,8 @@ def _parts(text: str) -> dict[str, tuple[int, str]]:
     if len(text) > LONGEST:
         raise FormulaError(f"a move has at most {LONGEST} characters", LONGEST, "split it")
     words = list(_WORD.finditer(text))
+    if fault := _fault(text, [(word[1], word.start()) for word in words]):
+        raise fault
     if not _ORDER.fullmatch(" ".join(word[1] for word in words)) or text[: words[0].start()].strip():
         raise FormulaError("this is no move", 0, _HOW)
     parts = {}
@@ -272,6 +276,18 @@ def _parts(text: str) -> dict[str, tuple[int, str]]:
             raise FormulaError(f"nothing follows `{word[1]}`", word.start(), _HOW)
         parts[word[1]] = word.end() + len(part) - len(part.lstrip()), part.strip()
     return parts
+
+
+def _fault(text: str, words: list[tuple[str, int]]) -> FormulaError | None:
+    """Return the error for a common mistake in the words of a move; None if there is none of them."""
+    columns = dict(words)
+    if (down := _DOWN.search(text)) is not None:
+        return FormulaError("`down` needs a rate", down.start(1), "write `, down at …`, as in `, down at 20 Hz/s`")
+    if "ramp to" in columns and "at" not in columns:
+        return FormulaError("the rate is missing", columns["ramp to"], "write `ramp to … at …`, as in `at 10 Hz/s`")
+    if len(found := [column for word, column in words if word in ("while", "when")]) > 1:
+        return FormulaError("a move has one condition", found[1], "join both by `and`, after `while` or `when`")
+    return None
 
 
 def _amount(part: tuple[int, str], *, has_unit: bool = False) -> Amount:
