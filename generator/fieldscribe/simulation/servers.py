@@ -115,7 +115,7 @@ async def serve(line: Line) -> Server:
             raise UnclearError(f"`{line.at}` is no CAN bus", "name it as python-can does, such as socketcan:can0")
         return await serve_can(line, interface, channel)
     host, _, port = line.at.rpartition(":")
-    if not (port or "0").isdecimal() or len(port) > 5:
+    if not (port or "0").isdecimal() or len(port) > 5 or int(port or 0) > 0xFFFF:
         raise UnclearError(f"`{line.at}` is no TCP port", "write [HOST:]PORT, such as 5020")
     return await serve_tcp(line, host.strip("[]") or LOOPBACK, int(port or 0))
 
@@ -126,9 +126,10 @@ async def serve_tcp(line: Line, host: str = LOOPBACK, port: int = 0) -> Server:
     try:
         listening = await asyncio.get_running_loop().create_server(lambda: _End(line, ends), host, port)
     except (OSError, OverflowError) as error:
-        taken = isinstance(error, OSError) and error.errno == errno.EADDRINUSE
+        number = error.errno if isinstance(error, OSError) and error.errno else 0
+        taken = number == errno.EADDRINUSE
         hint = "give another port, or 0 for any free one" if taken else "give an address of this machine, and a port"
-        reason = "it is taken" if taken else str(error)
+        reason = "it is taken" if taken else os.strerror(number) if number > 0 else str(error)
         raise UnclearError(f"port {port} of {host} cannot be served: {reason}", hint) from None
 
     def close() -> None:
