@@ -31,10 +31,11 @@ pub struct Line {
     connect: Box<dyn FnMut() -> Connecting + Send>,
     context: Option<Context>,
     timeout: Duration,
+    turnaround: Duration,
 }
 
 impl Line {
-    /// A line that `connect` opens, with one second to connect and for each answer.
+    /// A line that `connect` opens, with one second to connect and for each answer, and 0.1 seconds after a broadcast.
     #[must_use]
     pub fn new<F, E>(mut connect: impl FnMut() -> F + Send + 'static) -> Self
     where
@@ -48,14 +49,20 @@ impl Line {
             }),
             context: None,
             timeout: Duration::from_secs(1),
+            turnaround: Duration::from_millis(100),
         }
     }
 
-    /// The same with another time to connect, and for each answer. It is also the time that units have to carry out a
-    /// broadcast.
+    /// The same with another time to connect, and for each answer.
     #[must_use]
     pub fn timeout(self, timeout: Duration) -> Self {
         Self { timeout, ..self }
+    }
+
+    /// The same with another time to send a broadcast, and for the units to carry it out.
+    #[must_use]
+    pub fn turnaround(self, turnaround: Duration) -> Self {
+        Self { turnaround, ..self }
     }
 
     /// The client of tokio-modbus, for example for other functions; [`None`] before the first exchange and after a
@@ -87,7 +94,12 @@ impl AsyncTransport for Line {
             return Err(ErrorKind::InvalidInput.into());
         };
         let mut context = self.connection().await?;
-        let answer = call(&mut context, self.timeout, unit, function, data).await?;
+        let wait = if reply.is_empty() {
+            self.turnaround
+        } else {
+            self.timeout
+        };
+        let answer = call(&mut context, wait, unit, function, data).await?;
         if answer.is_some() || reply.is_empty() {
             self.context = Some(context);
         }

@@ -2,7 +2,7 @@
 
 use std::io::ErrorKind;
 use std::net::SocketAddr;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use hitachi_l200::enums::RunCommand;
 use hitachi_l200::runtime::modbus::{Profile, Request};
@@ -70,11 +70,15 @@ async fn whoever_does_not_answer_is_left(server: SocketAddr) {
     let (mut heard, _) = silent.accept().await.unwrap();
     while heard.read(&mut [0; 64]).await.unwrap() > 0 {} // it was closed
 
-    let mut client = AsyncClient::new(line([nobody]), Framing::Rtu, 1);
+    let patient = line([nobody]).timeout(Duration::from_secs(60)).turnaround(Duration::from_millis(50));
+    let mut client = AsyncClient::new(patient, Framing::Rtu, 1);
     let for_all = Request::write::<p::BaseFrequency>(0, 500);
+    let before = Instant::now();
     for _ in 0..2 {
         assert!(client.exchange(for_all).await.unwrap().is_none()); // and waits until all have done it
     }
+    let took = before.elapsed();
+    assert!(took >= Duration::from_millis(100) && took < Duration::from_secs(30), "{took:?}");
     assert!(client.transport().context().is_some());
 
     drop(silent);
