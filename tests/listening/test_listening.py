@@ -276,6 +276,13 @@ def test_lines_and_stations_of_a_project(
     for words, expected in (
         (["pump"], "it cannot be opened"),
         (["pump", "--line", "tcp://localhost"], "give --capture FILE"),
+        (
+            ["hitachi_l200", "--line", "rtu:///dev/x", "--capture", "x"],
+            "either --capture FILE or --line LINE, not both",
+        ),
+        (["hitachi_l200=300", "--capture", "x"], "`hitachi_l200=300`: a unit is a number up to 255"),
+        (["hitachi_l200=1", "eastron_sdm630=1", "--capture", "x"], "are both given for unit 1\n"),
+        (["hitachi_l200", "eastron_sdm630", "--capture", "x"], "are both given for all other units\n"),
         (["hitachi_l200", "--line", "can://virtual/x"], "its lines are tcp://, rtu://, rtu+tcp://"),
     ):
         assert main(["listen", *words]) == 2

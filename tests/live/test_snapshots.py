@@ -269,6 +269,16 @@ def test_what_is_no_snapshot_is_said(text: str, run: Run, tmp_path: Path) -> Non
         assert "snapshot" in done.err
 
 
+@pytest.mark.parametrize(
+    ("text", "code"), [("[lines]\n", 2), ('{"a": 1}', 2), ("[]", 2), ("", 0), ('{"snapshot": "older"}', 0)]
+)
+def test_only_a_snapshot_is_replaced(text: str, code: int, on_line: Run, tmp_path: Path) -> None:
+    (tmp_path / "kept").write_text(text, "utf-8")
+    done = on_line("snapshot", "hitachi_l200", "--out", str(tmp_path / "kept"))
+    assert (done.code, "is there, and no snapshot: it would be lost" in done.err) == (code, code == 2)
+    assert ((tmp_path / "kept").read_text("utf-8") == text) is (code == 2)
+
+
 def test_a_device_in_place_of_a_snapshot_is_told_what_comes_first(run: Run) -> None:
     done = run("restore", "hitachi_l200", "x.json")
     assert (done.code, done.out) == (2, "")

@@ -28,12 +28,20 @@ def ends(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> tuple[int,
 
 def test_a_port_that_is_taken_ends_with_the_reason(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     trace = tmp_path / "trace"
-    trace.write_text("of the simulator that has the port", "utf-8")
+    held = '{"of": "the simulator that has the port"}\n'
+    trace.write_text(held, "utf-8")
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
         code, printed = ends([L200, "--tcp", str(port), "--trace", str(trace)], capsys)
-    assert (code, trace.read_text("utf-8")) == (2, "of the simulator that has the port")
+    assert (code, trace.read_text("utf-8")) == (2, held)
     assert f"port {port} of 127.0.0.1 cannot be served: it is taken" in printed
+
+
+def test_a_file_that_is_no_trace_is_kept(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "mine").write_text("[lines]\n", "utf-8")
+    code, printed = ends([L200, "--trace", str(tmp_path / "mine")], capsys)
+    assert (code, (tmp_path / "mine").read_text("utf-8")) == (2, "[lines]\n")
+    assert "is there, and no trace: it would be lost" in printed
 
 
 @pytest.mark.parametrize(
@@ -140,7 +148,7 @@ def test_the_console_reads_writes_and_spoils() -> None:
 @pytest.mark.full(seconds=2)
 def test_the_command_serves_until_a_signal(tmp_path: Path) -> None:
     trace = tmp_path / "trace.jsonl"
-    trace.write_text("an older one\n", "utf-8")
+    trace.write_text('{"line": "an older one"}\n', "utf-8")
     words = [L200, "--tcp", "0", "--strict", "--trace", str(trace), "--fault", "exception x1"]
     command = [sys.executable, "-m", "fieldscribe", "simulate", *words]
     with subprocess.Popen(

@@ -79,8 +79,10 @@ def run(arguments: Namespace) -> int:
     """Listen and print; return the exit code."""
     project = read_project(Path(NAME))
     stations = [_station(arguments, name, project) for name in arguments.devices]
+    _require_one_each(stations)
     if bool(arguments.capture) == bool(arguments.line):
-        raise StopError("give --capture FILE or --line LINE", "captures are pcap, pcapng, candump, bytes in lines")
+        either = "either --capture FILE or --line LINE, not both" if arguments.line else "--capture FILE or --line LINE"
+        raise StopError(f"give {either}", "captures are pcap, pcapng, candump, bytes in lines")
     line = None if arguments.line is None else _line(arguments, project, stations[0].device)
     listener = Listener(stations, options_of(stations[0].device, arguments))
     gc.freeze()  # objects from before stay
@@ -112,8 +114,8 @@ def _station(arguments: Namespace, text: str, project: Project) -> Station:
     known = project.stations.get(text)
     if known is None:
         name, equals, unit = text.rpartition("=")
-        if equals and not (unit.isascii() and unit.isdigit() and len(unit) < 5):
-            raise StopError(f"`{shortened(text)}`: a unit is a number", "as in hitachi_l200=1")
+        if equals and not (unit.isascii() and unit.isdigit() and len(unit) < 5 and int(unit) < 256):
+            raise StopError(f"`{shortened(text)}`: a unit is a number up to 255", "as in hitachi_l200=1")
         known = NamedStation(name if equals else text, None, int(unit) if equals else None)
     arguments.line = arguments.line or (None if arguments.capture else known.line)
     own = Namespace(**vars(arguments))
@@ -121,6 +123,17 @@ def _station(arguments: Namespace, text: str, project: Project) -> Station:
     own.variant, own.settings = [*arguments.variant, *known.variants], [*arguments.settings, *known.settings]
     device = placed(open_device(own), own)
     return Station(device, known.unit, settings_of(device, own))
+
+
+def _require_one_each(stations: list[Station]) -> None:
+    """Raise StopError if two devices are given for one unit, or for all other units."""
+    seen: dict[int | None, str] = {}
+    for station in stations:
+        unit, name = station.unit, station.device.id
+        if unit in seen:
+            what = "all other units" if unit is None else f"unit {unit}"
+            raise StopError(f"{seen[unit]} and {name} are both given for {what}", "name units, as in hitachi_l200=1")
+        seen[unit] = name
 
 
 def _line(arguments: Namespace, project: Project, device: Device) -> LineAddress:

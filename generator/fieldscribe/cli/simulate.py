@@ -121,12 +121,19 @@ def _pair(option: str, text: str) -> tuple[str, str]:
     return name.strip(), value.strip()
 
 
+def _first_byte(file: Path) -> bytes:
+    with open(file, "rb") as stream:
+        return stream.read(1)
+
+
 @contextmanager
 def _trace(file: Path | None) -> Iterator[TextIO | None]:
     """Return the stream of the trace; an older trace stays in its file until the lines are served."""
     if file is None or str(file) == "-":
         yield None if file is None else sys.stdout
     else:
+        if file.is_file() and _first_byte(file) not in (b"", b"{"):
+            raise StopError(f"{file} is there, and no trace: it would be lost", "name another file")
         with open(file, "a", encoding="utf-8", newline="\n") as stream:
             yield stream
 

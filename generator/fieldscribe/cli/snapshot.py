@@ -9,6 +9,7 @@ from pathlib import Path
 from fieldscribe.cli.common import StopError
 from fieldscribe.cli.live_options import LINES, add_live, add_unit, opened
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
+from fieldscribe.live.snapshots import may_be_replaced
 from fieldscribe.output import writing
 from fieldscribe.report import visible
 from fieldscribe.safe_files import kind_of
@@ -36,6 +37,8 @@ def run(arguments: Namespace) -> int:
     """Read all and write the file; return the exit code."""
     if arguments.out.exists() and (kind := kind_of(os.stat(arguments.out))) is not None:
         raise StopError(f"{kind}: {arguments.out}", "name a file")
+    if not may_be_replaced(arguments.out):
+        raise StopError(f"{arguments.out} is there, and no snapshot: it would be lost", "name another file")
     given = list(arguments.settings)
     with opened(arguments) as live:
         snapshot = live.taken()

@@ -175,6 +175,18 @@ def read_snapshot(path: Path) -> Snapshot:
     return snapshot
 
 
+def may_be_replaced(path: Path) -> bool:
+    """Return True if there is no file, an empty one, or a snapshot of any version: nothing else is lost. OSError."""
+    if not path.exists():
+        return True
+    try:
+        data = read_regular(path, _MOST_BYTES).data
+        held = json.loads(data or "{}")
+    except (ValueError, RecursionError):
+        return False
+    return not data or (isinstance(held, dict) and "snapshot" in held)
+
+
 def _texts(snapshot: Snapshot) -> Iterator[object]:
     """Yield the entries that must be texts."""
     yield from (*snapshot.variants.values(), *snapshot.given, *snapshot.missing.values())
