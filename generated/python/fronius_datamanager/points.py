@@ -47,30 +47,78 @@ Group = Literal[
     "storage",
     "fronius",
 ]
-COMMON_U16_CODES = Codes({"not_implemented": 0xFFFF}, no_value=("not_implemented",))
-INVERTER_U16_CODES = Codes({"not_implemented": 0xFFFF}, no_value=("not_implemented",))
-INVERTER_S16_CODES = Codes({"not_implemented": -32768}, no_value=("not_implemented",))
-INVERTER_U32_CODES = Codes(
+COMMON_U16_CODES = Codes[Literal["not_implemented"]](
+    {"not_implemented": 0xFFFF},
+    no_value=("not_implemented",),
+)
+INVERTER_U16_CODES = Codes[Literal["not_implemented"]](
+    {"not_implemented": 0xFFFF},
+    no_value=("not_implemented",),
+)
+INVERTER_S16_CODES = Codes[Literal["not_implemented"]](
+    {"not_implemented": -32768},
+    no_value=("not_implemented",),
+)
+INVERTER_U32_CODES = Codes[Literal["not_implemented"]](
     {"not_implemented": 0xFFFFFFFF},
     no_value=("not_implemented",),
 )
-NAMEPLATE_U16_CODES = Codes({"not_implemented": 0xFFFF}, no_value=("not_implemented",))
-NAMEPLATE_S16_CODES = Codes({"not_implemented": -32768}, no_value=("not_implemented",))
-SETTINGS_U16_CODES = Codes({"not_implemented": 0xFFFF}, no_value=("not_implemented",))
-SETTINGS_S16_CODES = Codes({"not_implemented": -32768}, no_value=("not_implemented",))
-STATUS_U16_CODES = Codes({"not_implemented": 0xFFFF}, no_value=("not_implemented",))
-STATUS_S16_CODES = Codes({"not_implemented": -32768}, no_value=("not_implemented",))
-STATUS_U32_CODES = Codes(
+NAMEPLATE_U16_CODES = Codes[Literal["not_implemented"]](
+    {"not_implemented": 0xFFFF},
+    no_value=("not_implemented",),
+)
+NAMEPLATE_S16_CODES = Codes[Literal["not_implemented"]](
+    {"not_implemented": -32768},
+    no_value=("not_implemented",),
+)
+SETTINGS_U16_CODES = Codes[Literal["not_implemented"]](
+    {"not_implemented": 0xFFFF},
+    no_value=("not_implemented",),
+)
+SETTINGS_S16_CODES = Codes[Literal["not_implemented"]](
+    {"not_implemented": -32768},
+    no_value=("not_implemented",),
+)
+STATUS_U16_CODES = Codes[Literal["not_implemented"]](
+    {"not_implemented": 0xFFFF},
+    no_value=("not_implemented",),
+)
+STATUS_S16_CODES = Codes[Literal["not_implemented"]](
+    {"not_implemented": -32768},
+    no_value=("not_implemented",),
+)
+STATUS_U32_CODES = Codes[Literal["not_implemented"]](
     {"not_implemented": 0xFFFFFFFF},
     no_value=("not_implemented",),
 )
-CONTROLS_U16_CODES = Codes({"not_implemented": 0xFFFF}, no_value=("not_implemented",))
-CONTROLS_S16_CODES = Codes({"not_implemented": -32768}, no_value=("not_implemented",))
-MPPT_S16_CODES = Codes({"not_implemented": -32768}, no_value=("not_implemented",))
-MPPT_U32_CODES = Codes({"not_implemented": 0xFFFFFFFF}, no_value=("not_implemented",))
-MPPT_U16_CODES = Codes({"not_implemented": 0xFFFF}, no_value=("not_implemented",))
-STORAGE_U16_CODES = Codes({"not_implemented": 0xFFFF}, no_value=("not_implemented",))
-STORAGE_S16_CODES = Codes({"not_implemented": -32768}, no_value=("not_implemented",))
+CONTROLS_U16_CODES = Codes[Literal["not_implemented"]](
+    {"not_implemented": 0xFFFF},
+    no_value=("not_implemented",),
+)
+CONTROLS_S16_CODES = Codes[Literal["not_implemented"]](
+    {"not_implemented": -32768},
+    no_value=("not_implemented",),
+)
+MPPT_S16_CODES = Codes[Literal["not_implemented"]](
+    {"not_implemented": -32768},
+    no_value=("not_implemented",),
+)
+MPPT_U32_CODES = Codes[Literal["not_implemented"]](
+    {"not_implemented": 0xFFFFFFFF},
+    no_value=("not_implemented",),
+)
+MPPT_U16_CODES = Codes[Literal["not_implemented"]](
+    {"not_implemented": 0xFFFF},
+    no_value=("not_implemented",),
+)
+STORAGE_U16_CODES = Codes[Literal["not_implemented"]](
+    {"not_implemented": 0xFFFF},
+    no_value=("not_implemented",),
+)
+STORAGE_S16_CODES = Codes[Literal["not_implemented"]](
+    {"not_implemented": -32768},
+    no_value=("not_implemented",),
+)
 
 
 class Points(PointTable):

@@ -1572,7 +1572,7 @@ class Points(PointTable):
     upper_frequency_limit = ReadWrite(
         WithWritableCodes(
             Scaled(U16, Rule(num=10), decimals=1),
-            Codes({"inactive": 0}, writable=("inactive",)),
+            Codes[Literal["inactive"]]({"inactive": 0}, writable=("inactive",)),
         ),
         at=holding(0x1059),
         group="standard_a",
@@ -1605,7 +1605,7 @@ class Points(PointTable):
     upper_frequency_limit_set_2 = ReadWrite(
         WithWritableCodes(
             Scaled(U16, Rule(num=10), decimals=1),
-            Codes({"inactive": 0}, writable=("inactive",)),
+            Codes[Literal["inactive"]]({"inactive": 0}, writable=("inactive",)),
         ),
         at=holding(0x1516),
         group="standard_a",
@@ -1638,7 +1638,7 @@ class Points(PointTable):
     lower_frequency_limit = ReadWrite(
         WithWritableCodes(
             Scaled(U16, Rule(num=10), decimals=1),
-            Codes({"inactive": 0}, writable=("inactive",)),
+            Codes[Literal["inactive"]]({"inactive": 0}, writable=("inactive",)),
         ),
         at=holding(0x105A),
         group="standard_a",
@@ -1674,7 +1674,7 @@ class Points(PointTable):
     lower_frequency_limit_set_2 = ReadWrite(
         WithWritableCodes(
             Scaled(U16, Rule(num=10), decimals=1),
-            Codes({"inactive": 0}, writable=("inactive",)),
+            Codes[Literal["inactive"]]({"inactive": 0}, writable=("inactive",)),
         ),
         at=holding(0x1517),
         group="standard_a",

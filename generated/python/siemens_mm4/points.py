@@ -572,7 +572,10 @@ class Points(PointTable):
     uss_telegram_off_time_index_0 = Stored(
         WithWritableCodes(
             Integer(U16),
-            Codes({"monitoring_off": 0}, writable=("monitoring_off",)),
+            Codes[Literal["monitoring_off"]](
+                {"monitoring_off": 0},
+                writable=("monitoring_off",),
+            ),
         ),
         at=parameter(2014, index=0),
         group="parameters",
@@ -593,7 +596,10 @@ class Points(PointTable):
     uss_telegram_off_time_index_1 = Stored(
         WithWritableCodes(
             Integer(U16),
-            Codes({"monitoring_off": 0}, writable=("monitoring_off",)),
+            Codes[Literal["monitoring_off"]](
+                {"monitoring_off": 0},
+                writable=("monitoring_off",),
+            ),
         ),
         at=parameter(2014, index=1),
         group="parameters",

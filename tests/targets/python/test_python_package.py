@@ -91,7 +91,7 @@ def test_generated_code_is_formatted(folder: Path) -> None:
 
 MISUSE = """
 from sample_drive import FrequencySource, SampleDrive, SampleDriveAsync
-from typing import assert_type
+from typing import Literal, assert_type
 from fieldscribe_runtime import Field, ReadOnly, ReadWrite, Special, Transport
 from sample_drive import StatusWord, StatusWordMode
 
@@ -130,6 +130,11 @@ def use(transport: Transport) -> None:
     temperature: float | Special = drive.temperature.read()
     if isinstance(temperature, Special):
         reason: str = temperature.name
+    kept = drive.temperature.read()
+    assert_type(kept, float | Special[Literal["no_sensor"]])
+    typo = not isinstance(kept, float) and kept.name == "no_senser"  # E: comparison-overlap
+    if isinstance(temperature, Special):
+        reason = str(temperature)
     else:
         frequency = temperature
     drive.upper_limit.write(drive.upper_limit.special.inactive)

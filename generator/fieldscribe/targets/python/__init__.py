@@ -15,7 +15,7 @@ from fieldscribe.targets.runtime_calls.scope import shared_identifiers
 from fieldscribe.text import pascal, python_doc, python_string, toml_string, upper
 from fieldscribe.wording import open_texts
 
-LIBRARIES = frozenset({"can", "pymodbus", "serial"})
+LIBRARIES = frozenset({"can", "pymodbus", "serial", "typing_extensions"})
 """The packages that transports of the runtime import if a project uses them."""
 
 _OWN = Owner("target", "what the package needs")

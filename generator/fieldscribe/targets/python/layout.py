@@ -13,6 +13,10 @@ DOC = WIDTH - 4 - 6
 """The width of a docstring inside a class, less the indentation and two triple quotes."""
 
 
+_LITERAL = 64
+"""The longest parameter of a type: longer ones would have to be broken."""
+
+
 def comment(text: str) -> str:
     """Return text for a `#` comment, in which no second `#` can start a directive for some tool."""
     return python_doc(text).replace("#", "")
@@ -60,8 +64,14 @@ def flat(node: Node) -> str:
 
 def _brackets(node: Branch) -> tuple[str, str]:
     if isinstance(node, Call):
-        return f"{node.name}(", ")"
+        return f"{node.name}{_parameter(node.literals)}(", ")"
     return ("(", ")") if isinstance(node, tuple) else ("{", "}")
+
+
+def _parameter(literals: tuple[str, ...]) -> str:
+    """Return a `Literal` of these texts as the parameter of a type; empty if it does not fit on a line."""
+    text = f"[Literal[{', '.join(map(python_string, literals))}]]" if literals else ""
+    return text if len(text) <= _LITERAL else ""
 
 
 def _items(node: Branch) -> list[tuple[str, Node]]:

@@ -52,6 +52,7 @@ def points_context(device: Device, names: Identifiers, render: Render) -> dict[s
         "imports": _imports(scope.used - {"enums"}, family),
         "open_points": list(_open_points(device)),
         "uses_enums": "enums" in scope.used,
+        "has_codes": "Codes" in scope.used,
         "group_names": _group_names(readable_groups(device)),
         "profile": profile,
         "facts": facts,

@@ -7,7 +7,7 @@ from fieldscribe.conditions import Condition
 from fieldscribe.lowered import Operand
 from fieldscribe.model import Bound, Command, Linear, Point, ScaleCase, Special, Step, Text, Word
 from fieldscribe.model.device import WHOLE_WORD
-from fieldscribe.targets.runtime_calls.scope import Hex, Name, Node, PointName, Scope, call
+from fieldscribe.targets.runtime_calls.scope import Call, Hex, Name, Node, PointName, Scope, call
 
 _PLACES = {"coil": "coil", "discrete": "discrete", "holding": "holding", "input": "input_register"}
 _DATES = {"date": "DateParts", "time": "TimeParts", "date and time": "DateTimeParts"}
@@ -39,7 +39,8 @@ def _codes(point: Point, scope: Scope) -> Node:
         key: tuple(special.name for special in point.specials if getattr(special, key))
         for key in ("no_value", "writable")
     }
-    codes = call(scope.runtime("Codes"), raws, **{key: stated for key, stated in names.items() if stated})
+    keywords = {key: stated for key, stated in names.items() if stated}
+    codes = Call(scope.runtime("Codes"), (raws,), keywords, tuple(raws))
     if not point.shared_codes:
         return codes
     name = Name(f"{point.shared_codes.upper()}_CODES")

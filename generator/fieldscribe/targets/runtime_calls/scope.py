@@ -39,11 +39,15 @@ class Hex(int):
 
 @dataclass(frozen=True, slots=True)
 class Call:
-    """A call of a name, with its arguments by position and by keyword."""
+    """A call of a name, with its arguments by position and by keyword.
+
+    `literals` are the texts of its type parameter, for languages that have one.
+    """
 
     name: str
     positional: tuple[Node, ...] = ()
     keywords: Mapping[str, Node] = field(default_factory=dict)
+    literals: tuple[str, ...] = ()
 
 
 Leaf = str | int | float | None

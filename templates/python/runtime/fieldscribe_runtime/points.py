@@ -285,7 +285,7 @@ class Point(Guided):
         `encode` does, but also accepts values that may not be written.
         """
         if isinstance(value, Special):
-            return value.name
+            return str(value)
         try:
             raw = self._form.converted(value, raws)
             if raw is None:

@@ -32,6 +32,7 @@ class Record:
     __signature__: ClassVar[Any] = _Signature()
 
     def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
         names = [name for name, kind in cls.__annotations__.items() if not str(kind).startswith("ClassVar")]
         cls._fields = (*cls._fields, *names)
         cls._needed = frozenset([name for name in cls._fields if not hasattr(cls, name)])

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Generic
 
 from .arguments import raw_number, shown
 from .records import Record
@@ -11,14 +11,23 @@ from .records import Record
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterator, Mapping
 
+    from typing_extensions import TypeVar
 
-class Special(Record):
+    # Type checkers know the module and the default; a program needs neither.
+    N_co = TypeVar("N_co", bound=str, covariant=True, default=str)
+else:
+    from typing import TypeVar
+
+    N_co = TypeVar("N_co", bound=str, covariant=True)
+
+
+class Special(Record, Generic[N_co]):
     """A special code, which a point holds instead of a quantity.
 
-    `no_value`: it means that there is no value. `writable`: it may be written.
+    `no_value`: it means that there is no value. `writable`: it may be written. The type of its name is a `Literal`.
     """
 
-    name: str
+    name: N_co
     raw: int
     no_value: bool = False
     writable: bool = False
@@ -27,7 +36,7 @@ class Special(Record):
         return self.name
 
 
-class Codes:
+class Codes(Generic[N_co]):
     """The special codes of a point: `codes.inactive` or `codes["inactive"]`, or the code of a raw number: `codes(0)`.
 
     A code is a raw number, or the first and the last one of a band. `no_value` names those that mean that there is no
@@ -36,19 +45,21 @@ class Codes:
 
     def __init__(
         self,
-        codes: Mapping[str, int | tuple[int, int]],
+        codes: Mapping[N_co, int | tuple[int, int]],
         *,
         no_value: Collection[str] = (),
         writable: Collection[str] = (),
     ) -> None:
-        self._spans = {name: (code, code) if isinstance(code, int) else code for name, code in codes.items()}
+        self._spans: dict[str, tuple[int, int]] = {
+            name: (code, code) if isinstance(code, int) else code for name, code in codes.items()
+        }
         self._no_value = frozenset(no_value)
         self._writable = frozenset(writable)
         ends = self._spans.items()
         self._single = {low: self._made(name, low) for name, (low, high) in ends if low == high}
         self._bands = tuple((low, high, name) for name, (low, high) in ends if low != high)
 
-    def __call__(self, raw: int) -> Special | None:
+    def __call__(self, raw: int) -> Special[N_co] | None:
         """Return the special code of a raw number; None for a quantity. Raises WrongTypeError for a non-integer."""
         if type(raw) is not int:
             raw = raw_number(raw, 0)
@@ -58,11 +69,11 @@ class Codes:
         return found
 
     @property
-    def finder(self) -> Callable[[int], Special | None]:
+    def finder(self) -> Callable[[int], Special[N_co] | None]:
         """The function that finds the code of a raw number; it skips bands if there are none."""
         return self if self._bands else self._single.get
 
-    def __getitem__(self, name: str) -> Special:
+    def __getitem__(self, name: str) -> Special[N_co]:
         """Return the code with a name; raises KeyError, also for a band, which needs a raw number."""
         if not isinstance(name, str) or name not in self._spans:
             raise KeyError(self._no_such(name))
@@ -71,7 +82,7 @@ class Codes:
             raise KeyError(f"{name} is all of {low}..{high}: call the codes with a raw number")
         return self._made(name, low)
 
-    def __getattr__(self, name: str) -> Special:
+    def __getattr__(self, name: str) -> Special[N_co]:
         if name not in self.__dict__.get("_spans", ()):  # which a copy has not from the beginning
             raise AttributeError(self._no_such(name))
         try:
@@ -104,7 +115,7 @@ class Codes:
         named = given if given in self._spans and self._spans[given][0] == self._spans[given][1] else "name"
         return f"takes a number or a special code, as in special.{named}, not {shown(given)}"
 
-    def _made(self, name: str, raw: int) -> Special:
+    def _made(self, name: Any, raw: int) -> Special[N_co]:
         return Special(name, raw, name in self._no_value, name in self._writable)
 
 

@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from .arguments import shown
 from .errors import RangeError, SpecialCodeError, UnknownValueError, WrongTypeError
 from .fast import coded, uncoded
 from .forms import Form
-from .special import Special
+from .special import N_co, Special
 
 if TYPE_CHECKING:
     from .fast import Way
@@ -46,12 +46,13 @@ class Around(Form[R, W]):
         return self.form.converted(value, raws)
 
 
-class _Coded(Around[R | Special, W]):
+class _Coded(Around[R | Special[N_co], W], Generic[R, W, N_co]):
     """A form with special codes around another form."""
 
     form: Form[Any, Any]
+    codes: Codes[N_co]
 
-    def __init__(self, form: Form[Any, Any], codes: Codes) -> None:
+    def __init__(self, form: Form[Any, Any], codes: Codes[N_co]) -> None:
         super().__init__(form)
         self.codes = codes
 
@@ -63,7 +64,7 @@ class _Coded(Around[R | Special, W]):
         """Return the form's encoder, which must not return a special code."""
         return uncoded(self.codes.finder, self.form.quick_encode(allowed, slow), slow)
 
-    def decode(self, raw: int, raws: Raws) -> R | Special:
+    def decode(self, raw: int, raws: Raws) -> R | Special[N_co]:
         """Return the special code, or the form's value."""
         return self.codes(raw) or self.form.decode(raw, raws)
 
@@ -98,17 +99,17 @@ class _Coded(Around[R | Special, W]):
         raise SpecialCodeError(code.name, f"raw {raw} {how} the special code {code}: {hint}")
 
 
-class WithCodes(_Coded[R, W]):
+class WithCodes(_Coded[R, W, N_co]):
     """A form with special codes: they decode to `Special`, and no value is encoded to one."""
 
-    def __init__(self, form: Form[R, W], codes: Codes) -> None:
+    def __init__(self, form: Form[R, W], codes: Codes[N_co]) -> None:
         super().__init__(form, codes)
 
 
-class WithWritableCodes(_Coded[R, W | Special]):
+class WithWritableCodes(_Coded[R, W | Special, N_co]):
     """The same, with special codes that may be written."""
 
-    def __init__(self, form: Form[R, W], codes: Codes) -> None:
+    def __init__(self, form: Form[R, W], codes: Codes[N_co]) -> None:
         super().__init__(form, codes)
 
     def converted(self, value: W | Special, raws: Raws) -> int | None:
