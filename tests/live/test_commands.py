@@ -187,6 +187,8 @@ def test_other_families(words: str, code: int, out: str, err: str, other: Run) -
         ("tcp://127.0.0.1:1", "Connection refused\n  hint: is the line right"),
         ("rtu:///dev/nothing_here", "could not open port"),
         ("bench", "`bench` is no line, and no name of one\n  hint: there is no fieldscribe.toml here"),
+        ("/dev/ttyUSB0", "a line itself is rtu:///dev/ttyUSB0, or uss:///dev/ttyUSB0\n"),
+        ("192.168.0.20:502", "a line itself is tcp://192.168.0.20:502\n"),
     ],
 )
 def test_a_line_that_cannot_be_opened(line: str, message: str, run: Run, small: object) -> None:

@@ -103,7 +103,9 @@ def _named(text: str, project: Project) -> str:
         return project.lines.get(text, text)
     none = f"{NAME} here has no table `lines`" if Path(NAME).exists() else f"there is no {NAME} here"
     names = f"{NAME} has {', '.join(project.lines)}" if project.lines else none
-    near = did_you_mean(get_close_matches(text, project.lines, 1)) or f"{names}; a line itself is tcp://HOST:PORT"
+    itself = f"rtu://{text}, or uss://{text}" if text.startswith("/") else "tcp://HOST:PORT"
+    itself = f"tcp://{text}" if text.rpartition(":")[2].isdecimal() else itself
+    near = did_you_mean(get_close_matches(text, project.lines, 1)) or f"{names}; a line itself is {itself}"
     raise StopError(f"`{shortened(text)}` is no line, and no name of one", near)
 
 

@@ -5,6 +5,7 @@ A mapping from a file has the place of each key, which error messages start with
 
 from collections.abc import Mapping
 from decimal import Decimal
+from difflib import get_close_matches
 from functools import lru_cache
 from pathlib import Path
 from typing import Any, TypeVar
@@ -71,7 +72,9 @@ def _file(name: str, folder: Path) -> Path:
     files = (path if path.is_file() else path / DEVICE_FILE for path in paths)
     file = next((file for file in files if file.is_file()), None)
     if file is None:
-        raise UnclearError(f"there is no device `{name[:80]}`", f"give an id, or a folder with a {DEVICE_FILE}")
+        ids = [path.parent.name for path in descriptions_dir().glob(f"*/{DEVICE_FILE}")]
+        near = did_you_mean(get_close_matches(name, ids, 1, 0.5))
+        raise UnclearError(f"there is no device `{name[:80]}`", near or f"give an id, or a folder with a {DEVICE_FILE}")
     return file
 
 
@@ -160,7 +163,12 @@ class Bench:
         _check(settings, _DEVICE, "device")
         name, moves = settings["device"], settings.get("behaviour")
         variants = tuple(f"{axis}={value}" for axis, value in settings.get("variant", {}).items())
-        layout = layout_of(name, variants, tuple(settings.get("given", {}).items()), self._folder)
+        if moves not in (None, True, False, "yes", "no"):
+            raise _wrong(settings, "behaviour", f"`{moves}` is not yes or no", "leave it out, or write `no`")
+        try:
+            layout = layout_of(name, variants, tuple(settings.get("given", {}).items()), self._folder)
+        except UnclearError as error:
+            raise _wrong(settings, "device", error.message, error.hint) from None
         moves = has_behaviour(name, self._folder) if moves is None else moves in (True, "yes")
         low, high = layout.device.bus.units
         devices = []
