@@ -68,27 +68,31 @@ impl Selection {
     }
 }
 
-/// The other points that a point needs before it is read.
+/// The other points that a point needs before it is read or written.
 #[derive(Clone, Copy, Debug)]
 pub struct Others {
     /// The points whose raw numbers decoding needs.
     pub needs: &'static [&'static PointFacts],
     /// What is written before the address means the point.
     pub selects: &'static [Selection],
+    /// The names of the points that one request writes together with the point.
+    pub written_with: &'static [&'static str],
 }
 
-/// Returns what a point needs of others; points without a selection share a function.
+/// Returns what a point needs of others; points without a selection that are written alone share a function.
 #[must_use]
 pub const fn others<N: Needs, P: Point>() -> fn() -> Others {
-    if P::SELECTS.is_empty() {
+    if P::SELECTS.is_empty() && P::WRITTEN_WITH.is_empty() {
         || Others {
             needs: N::points(),
             selects: &[],
+            written_with: &[],
         }
     } else {
         || Others {
             needs: N::points(),
             selects: P::SELECTS,
+            written_with: P::WRITTEN_WITH,
         }
     }
 }
@@ -194,6 +198,13 @@ impl PointFacts {
     /// What is written before the address means the point.
     pub(crate) fn selects(&self) -> &'static [Selection] {
         (self.others)().selects
+    }
+
+    /// The names of the points that the device takes together with this one, in one request; empty if it takes this
+    /// one alone.
+    #[must_use]
+    pub fn written_with(&self) -> &'static [&'static str] {
+        (self.others)().written_with
     }
 
     /// The same with what may be written.
