@@ -79,12 +79,12 @@ def run(arguments: Namespace) -> int:
     """Listen and print; return the exit code."""
     project = read_project(Path(NAME))
     stations = [_station(arguments, name, project) for name in arguments.devices]
-    _require_one_each(stations)
     if bool(arguments.capture) == bool(arguments.line):
         either = "either --capture FILE or --line LINE, not both" if arguments.line else "--capture FILE or --line LINE"
         raise StopError(f"give {either}", "captures are pcap, pcapng, candump, bytes in lines")
     line = None if arguments.line is None else _line(arguments, project, stations[0].device)
     listener = Listener(stations, options_of(stations[0].device, arguments))
+    _require_one_each(stations)
     gc.freeze()  # objects from before stay
     gc.set_threshold(_GC_THRESHOLD)
     gc.enable()  # a line may last for days
