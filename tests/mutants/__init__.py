@@ -12,6 +12,9 @@ It prints what was killed by kind of file and each survivor with its place, befo
 is missed. Each result is stored in `.cache/mutants`, by the seed and a digest of all that was judged: a run that was
 stopped goes on where it was, and a larger COUNT starts where the smaller one ended.
 
+In C and Rust, mutants inside of functions are built into one program a device, which chooses one when it runs. Those
+of the compiler meet the tests of their room first; only what survives those needs the other tests measured, once.
+
 What is changed: numbers, operators, names in strings, neighbouring constants, truth, named constants, statements and
 conditions; in the compiler also what is returned, arguments that change places, comparisons and parts of conditions.
 What is not: comments, heads, docstrings, attributes, decorators, and texts with spaces, which are for people, nor
