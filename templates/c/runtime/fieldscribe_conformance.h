@@ -1164,6 +1164,10 @@ static inline void fieldscribe_refuses_long_counts(fieldscribe_vector *v)
         fieldscribe_agree(v, fieldscribe_ruled_count(rules[at], INT64_MAX / 2, 1, INT64_MIN, INT64_MAX).status ==
                 FIELDSCRIBE_OUT_OF_RANGE);
     }
+#if !defined(FIELDSCRIBE_NO_FLOAT) && !defined(FIELDSCRIBE_FLOAT32)
+    fieldscribe_agree(v, fieldscribe_rounded_wide(-9223372036854775808.0, INT64_MIN, 0).number == INT64_MIN &&
+            fieldscribe_rounded_wide(9223372036854775808.0, 0, INT64_MAX).status == FIELDSCRIBE_OUT_OF_RANGE);
+#endif
 }
 
 /* Numbers of 64 bits in any order of words, which few devices have. */
