@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 Render = Callable[[str, Mapping[str, object]], str]
 """A function that fills the template of a name from a context."""
 
-_LEFT_BEHIND = frozenset({"__pycache__", "target", ".mypy_cache", ".ruff_cache"})
+_LEFT_BEHIND = frozenset({"__pycache__", "target", ".mypy_cache", ".ruff_cache", "Cargo.lock"})
 _PACKAGE = Path(__file__).resolve().parent
 
 
@@ -44,7 +44,7 @@ def compiler_files() -> Iterator[str]:
     for root in (_PACKAGE, templates_dir()):
         for folder, folders, files in os.walk(root):
             folders[:] = sorted(set(folders) - _LEFT_BEHIND)
-            yield from (os.path.join(folder, name) for name in sorted(files))
+            yield from (os.path.join(folder, name) for name in sorted(set(files) - _LEFT_BEHIND))
 
 
 def runtime_files(folder: str) -> tuple[str, ...]:

@@ -98,7 +98,7 @@ def test_what_takes_the_place_of_a_file_once_it_was_looked_at_is_refused(
 
 def test_a_runtime_is_shipped_without_what_tools_leave_in_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Of Python, Cargo, mypy and ruff, at any depth."""
-    left = ("__pycache__/a.pyc", "target/debug/a", "src/.mypy_cache/3.12/a.json", ".ruff_cache/0.1/b")
+    left = ("__pycache__/a.pyc", "target/debug/a", "src/.mypy_cache/3.12/a.json", ".ruff_cache/0.1/b", "Cargo.lock")
     write_files(dict.fromkeys(("c/b.h", "c/src/a.c", *(f"c/{path}" for path in left)), ""), tmp_path)
     monkeypatch.setattr(resources, "templates_dir", lambda: tmp_path)
     assert resources.runtime_files("c") == ("b.h", "src/a.c")
