@@ -7,7 +7,7 @@
  *
  * A raw number is the signed or unsigned integer on the wire. A value is its meaning in the unit. A count is the value
  * as an integer number of 10^-DECIMALS units. Encoding rounds to nearest, halves away from zero, and stores a result
- * only if it returns EASTRON_SDM630_OK. Decoding accepts every raw number that a device may send.
+ * only if it returns FIELDSCRIBE_OK. Decoding accepts every raw number that a device may send.
  * fieldscribe.h explains FIELDSCRIBE_NO_FLOAT and FIELDSCRIBE_FLOAT32.
  *
  * The manual leaves open
@@ -23,7 +23,7 @@
 
 #include "fieldscribe.h"
 
-#if FIELDSCRIBE_INTERFACE != 1
+#if FIELDSCRIBE_INTERFACE != 2
 #error "fieldscribe.h is of another version: take the one that was generated with this header."
 #endif
 
@@ -35,19 +35,6 @@
 #define EASTRON_SDM630_DESCRIPTION_DIGEST "2994a4a0ce53a72e"
 #define EASTRON_SDM630_DESCRIPTION 0x2994a4a0U /* for #if */
 
-typedef fieldscribe_status eastron_sdm630_status;
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-typedef fieldscribe_real eastron_sdm630_real;
-#endif
-#define EASTRON_SDM630_OK FIELDSCRIBE_OK
-#define EASTRON_SDM630_OUT_OF_RANGE FIELDSCRIBE_OUT_OF_RANGE
-#define EASTRON_SDM630_NOT_A_NUMBER FIELDSCRIBE_NOT_A_NUMBER
-#define EASTRON_SDM630_UNKNOWN_VALUE FIELDSCRIBE_UNKNOWN_VALUE
-#define EASTRON_SDM630_ZERO_FACTOR FIELDSCRIBE_ZERO_FACTOR
-#define EASTRON_SDM630_NO_CASE FIELDSCRIBE_NO_CASE
-#define EASTRON_SDM630_OVERFLOW FIELDSCRIBE_OVERFLOW
-#define EASTRON_SDM630_SPECIAL FIELDSCRIBE_SPECIAL
-#define EASTRON_SDM630_MALFORMED FIELDSCRIBE_MALFORMED
 
 /*
  * Times and settings of the line, from the manual. TIMING_..._MS are milliseconds; MIN and MAX are their limits.
@@ -62,7 +49,6 @@ typedef fieldscribe_real eastron_sdm630_real;
 #define EASTRON_SDM630_SERIAL_BAUD_38400 4U
 #define EASTRON_SDM630_SERIAL_DATA_BITS 8U
 
-
 /* ---- measurements (input) ---- */
 
 /* phase 1 voltage: any number in V; r, reference 30001; exists only when system_type != three_phase_three_wire */
@@ -72,10 +58,6 @@ static inline void eastron_sdm630_phase_1_voltage_to_words(uint32_t raw, uint16_
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_1_voltage_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_1_voltage_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 2 voltage: any number in V; r, reference 30003; exists only when system_type == three_phase_four_wire */
 #define EASTRON_SDM630_PHASE_2_VOLTAGE_ADDRESS 0x0002U
@@ -84,10 +66,6 @@ static inline void eastron_sdm630_phase_2_voltage_to_words(uint32_t raw, uint16_
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_2_voltage_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_2_voltage_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 3 voltage: any number in V; r, reference 30005; exists only when system_type == three_phase_four_wire */
 #define EASTRON_SDM630_PHASE_3_VOLTAGE_ADDRESS 0x0004U
@@ -96,10 +74,6 @@ static inline void eastron_sdm630_phase_3_voltage_to_words(uint32_t raw, uint16_
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_3_voltage_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_3_voltage_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 1 current: any number in A; r, reference 30007 */
 #define EASTRON_SDM630_PHASE_1_CURRENT_ADDRESS 0x0006U
@@ -108,10 +82,6 @@ static inline void eastron_sdm630_phase_1_current_to_words(uint32_t raw, uint16_
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_1_current_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_1_current_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 2 current: any number in A; r, reference 30009; exists only when system_type != single_phase_two_wire */
 #define EASTRON_SDM630_PHASE_2_CURRENT_ADDRESS 0x0008U
@@ -120,10 +90,6 @@ static inline void eastron_sdm630_phase_2_current_to_words(uint32_t raw, uint16_
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_2_current_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_2_current_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 3 current: any number in A; r, reference 30011; exists only when system_type != single_phase_two_wire */
 #define EASTRON_SDM630_PHASE_3_CURRENT_ADDRESS 0x000AU
@@ -132,10 +98,6 @@ static inline void eastron_sdm630_phase_3_current_to_words(uint32_t raw, uint16_
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_3_current_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_3_current_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 1 active power: any number in W; r, reference 30013; exists only when system_type != three_phase_three_wire */
 #define EASTRON_SDM630_PHASE_1_ACTIVE_POWER_ADDRESS 0x000CU
@@ -144,10 +106,6 @@ static inline void eastron_sdm630_phase_1_active_power_to_words(uint32_t raw, ui
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_1_active_power_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_1_active_power_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 2 active power: any number in W; r, reference 30015; exists only when system_type == three_phase_four_wire */
 #define EASTRON_SDM630_PHASE_2_ACTIVE_POWER_ADDRESS 0x000EU
@@ -156,10 +114,6 @@ static inline void eastron_sdm630_phase_2_active_power_to_words(uint32_t raw, ui
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_2_active_power_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_2_active_power_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 3 active power: any number in W; r, reference 30017; exists only when system_type == three_phase_four_wire */
 #define EASTRON_SDM630_PHASE_3_ACTIVE_POWER_ADDRESS 0x0010U
@@ -168,10 +122,6 @@ static inline void eastron_sdm630_phase_3_active_power_to_words(uint32_t raw, ui
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_3_active_power_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_3_active_power_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * phase 1 apparent power: any number in VA; r, reference 30019; exists only when system_type != three_phase_three_wire
@@ -182,10 +132,6 @@ static inline void eastron_sdm630_phase_1_apparent_power_to_words(uint32_t raw, 
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_1_apparent_power_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_1_apparent_power_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * phase 2 apparent power: any number in VA; r, reference 30021; exists only when system_type == three_phase_four_wire
@@ -196,10 +142,6 @@ static inline void eastron_sdm630_phase_2_apparent_power_to_words(uint32_t raw, 
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_2_apparent_power_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_2_apparent_power_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * phase 3 apparent power: any number in VA; r, reference 30023; exists only when system_type == three_phase_four_wire
@@ -210,10 +152,6 @@ static inline void eastron_sdm630_phase_3_apparent_power_to_words(uint32_t raw, 
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_3_apparent_power_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_3_apparent_power_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * phase 1 reactive power: any number in var; r, reference 30025; exists only when system_type != three_phase_three_wire
@@ -224,10 +162,6 @@ static inline void eastron_sdm630_phase_1_reactive_power_to_words(uint32_t raw, 
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_1_reactive_power_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_1_reactive_power_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * phase 2 reactive power: any number in var; r, reference 30027; exists only when system_type == three_phase_four_wire
@@ -238,10 +172,6 @@ static inline void eastron_sdm630_phase_2_reactive_power_to_words(uint32_t raw, 
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_2_reactive_power_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_2_reactive_power_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * phase 3 reactive power: any number in var; r, reference 30029; exists only when system_type == three_phase_four_wire
@@ -252,10 +182,6 @@ static inline void eastron_sdm630_phase_3_reactive_power_to_words(uint32_t raw, 
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_3_reactive_power_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_3_reactive_power_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 1 power factor: any number; r, reference 30031; exists only when system_type != three_phase_three_wire */
 #define EASTRON_SDM630_PHASE_1_POWER_FACTOR_ADDRESS 0x001EU
@@ -264,10 +190,6 @@ static inline void eastron_sdm630_phase_1_power_factor_to_words(uint32_t raw, ui
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_1_power_factor_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_1_power_factor_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 2 power factor: any number; r, reference 30033; exists only when system_type == three_phase_four_wire */
 #define EASTRON_SDM630_PHASE_2_POWER_FACTOR_ADDRESS 0x0020U
@@ -276,10 +198,6 @@ static inline void eastron_sdm630_phase_2_power_factor_to_words(uint32_t raw, ui
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_2_power_factor_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_2_power_factor_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 3 power factor: any number; r, reference 30035; exists only when system_type == three_phase_four_wire */
 #define EASTRON_SDM630_PHASE_3_POWER_FACTOR_ADDRESS 0x0022U
@@ -288,10 +206,6 @@ static inline void eastron_sdm630_phase_3_power_factor_to_words(uint32_t raw, ui
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_3_power_factor_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_3_power_factor_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 1 phase angle: any number in °; r, reference 30037; exists only when system_type != three_phase_three_wire */
 #define EASTRON_SDM630_PHASE_1_PHASE_ANGLE_ADDRESS 0x0024U
@@ -300,10 +214,6 @@ static inline void eastron_sdm630_phase_1_phase_angle_to_words(uint32_t raw, uin
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_1_phase_angle_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_1_phase_angle_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 2 phase angle: any number in °; r, reference 30039; exists only when system_type == three_phase_four_wire */
 #define EASTRON_SDM630_PHASE_2_PHASE_ANGLE_ADDRESS 0x0026U
@@ -312,10 +222,6 @@ static inline void eastron_sdm630_phase_2_phase_angle_to_words(uint32_t raw, uin
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_2_phase_angle_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_2_phase_angle_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 3 phase angle: any number in °; r, reference 30041; exists only when system_type == three_phase_four_wire */
 #define EASTRON_SDM630_PHASE_3_PHASE_ANGLE_ADDRESS 0x0028U
@@ -324,10 +230,6 @@ static inline void eastron_sdm630_phase_3_phase_angle_to_words(uint32_t raw, uin
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_3_phase_angle_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_3_phase_angle_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * average voltage: any number in V; r, reference 30043; exists only when system_type == three_phase_four_wire; the
@@ -339,10 +241,6 @@ static inline void eastron_sdm630_average_voltage_to_words(uint32_t raw, uint16_
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_average_voltage_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_average_voltage_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* average current: any number in A; r, reference 30047 */
 #define EASTRON_SDM630_AVERAGE_CURRENT_ADDRESS 0x002EU
@@ -351,10 +249,6 @@ static inline void eastron_sdm630_average_current_to_words(uint32_t raw, uint16_
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_average_current_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_average_current_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* sum of currents: any number in A; r, reference 30049 */
 #define EASTRON_SDM630_SUM_OF_CURRENTS_ADDRESS 0x0030U
@@ -363,10 +257,6 @@ static inline void eastron_sdm630_sum_of_currents_to_words(uint32_t raw, uint16_
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_sum_of_currents_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_sum_of_currents_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* total active power: any number in W; r, reference 30053 */
 #define EASTRON_SDM630_TOTAL_ACTIVE_POWER_ADDRESS 0x0034U
@@ -375,10 +265,6 @@ static inline void eastron_sdm630_total_active_power_to_words(uint32_t raw, uint
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_total_active_power_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_total_active_power_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* total apparent power: any number in VA; r, reference 30057 */
 #define EASTRON_SDM630_TOTAL_APPARENT_POWER_ADDRESS 0x0038U
@@ -387,10 +273,6 @@ static inline void eastron_sdm630_total_apparent_power_to_words(uint32_t raw, ui
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_total_apparent_power_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_total_apparent_power_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* total reactive power: any number in var; r, reference 30061 */
 #define EASTRON_SDM630_TOTAL_REACTIVE_POWER_ADDRESS 0x003CU
@@ -399,10 +281,6 @@ static inline void eastron_sdm630_total_reactive_power_to_words(uint32_t raw, ui
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_total_reactive_power_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_total_reactive_power_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* total power factor: any number; r, reference 30063 */
 #define EASTRON_SDM630_TOTAL_POWER_FACTOR_ADDRESS 0x003EU
@@ -411,10 +289,6 @@ static inline void eastron_sdm630_total_power_factor_to_words(uint32_t raw, uint
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_total_power_factor_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_total_power_factor_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* total phase angle: any number in °; r, reference 30067 */
 #define EASTRON_SDM630_TOTAL_PHASE_ANGLE_ADDRESS 0x0042U
@@ -423,10 +297,6 @@ static inline void eastron_sdm630_total_phase_angle_to_words(uint32_t raw, uint1
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_total_phase_angle_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_total_phase_angle_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* frequency: any number in Hz; r, reference 30071 */
 #define EASTRON_SDM630_FREQUENCY_ADDRESS 0x0046U
@@ -435,9 +305,6 @@ static inline void eastron_sdm630_frequency_to_words(uint32_t raw, uint16_t word
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_frequency_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_frequency_decode(uint32_t raw) { return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* import active energy: any number in kWh; r, reference 30073 */
 #define EASTRON_SDM630_IMPORT_ACTIVE_ENERGY_ADDRESS 0x0048U
@@ -446,10 +313,6 @@ static inline void eastron_sdm630_import_active_energy_to_words(uint32_t raw, ui
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_import_active_energy_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_import_active_energy_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* export active energy: any number in kWh; r, reference 30075 */
 #define EASTRON_SDM630_EXPORT_ACTIVE_ENERGY_ADDRESS 0x004AU
@@ -458,10 +321,6 @@ static inline void eastron_sdm630_export_active_energy_to_words(uint32_t raw, ui
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_export_active_energy_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_export_active_energy_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* import reactive energy: any number in kvarh; r, reference 30077 */
 #define EASTRON_SDM630_IMPORT_REACTIVE_ENERGY_ADDRESS 0x004CU
@@ -470,10 +329,6 @@ static inline void eastron_sdm630_import_reactive_energy_to_words(uint32_t raw, 
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_import_reactive_energy_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_import_reactive_energy_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* export reactive energy: any number in kvarh; r, reference 30079 */
 #define EASTRON_SDM630_EXPORT_REACTIVE_ENERGY_ADDRESS 0x004EU
@@ -482,10 +337,6 @@ static inline void eastron_sdm630_export_reactive_energy_to_words(uint32_t raw, 
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_export_reactive_energy_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_export_reactive_energy_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* apparent energy: any number in kVAh; r, reference 30081 */
 #define EASTRON_SDM630_APPARENT_ENERGY_ADDRESS 0x0050U
@@ -494,10 +345,6 @@ static inline void eastron_sdm630_apparent_energy_to_words(uint32_t raw, uint16_
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_apparent_energy_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_apparent_energy_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* charge: any number in Ah; r, reference 30083 */
 #define EASTRON_SDM630_CHARGE_ADDRESS 0x0052U
@@ -506,9 +353,6 @@ static inline void eastron_sdm630_charge_to_words(uint32_t raw, uint16_t words[2
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_charge_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_charge_decode(uint32_t raw) { return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* total active power demand: any number in W; r, reference 30085 */
 #define EASTRON_SDM630_TOTAL_ACTIVE_POWER_DEMAND_ADDRESS 0x0054U
@@ -517,10 +361,6 @@ static inline void eastron_sdm630_total_active_power_demand_to_words(uint32_t ra
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_total_active_power_demand_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_total_active_power_demand_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* maximum total active power demand: any number in W; r, reference 30087 */
 #define EASTRON_SDM630_MAXIMUM_TOTAL_ACTIVE_POWER_DEMAND_ADDRESS 0x0056U
@@ -529,10 +369,6 @@ static inline void eastron_sdm630_maximum_total_active_power_demand_to_words(uin
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_maximum_total_active_power_demand_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_maximum_total_active_power_demand_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* total apparent power demand: any number in VA; r, reference 30101 */
 #define EASTRON_SDM630_TOTAL_APPARENT_POWER_DEMAND_ADDRESS 0x0064U
@@ -541,10 +377,6 @@ static inline void eastron_sdm630_total_apparent_power_demand_to_words(uint32_t 
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_total_apparent_power_demand_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_total_apparent_power_demand_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* maximum total apparent power demand: any number in VA; r, reference 30103 */
 #define EASTRON_SDM630_MAXIMUM_TOTAL_APPARENT_POWER_DEMAND_ADDRESS 0x0066U
@@ -553,10 +385,6 @@ static inline void eastron_sdm630_maximum_total_apparent_power_demand_to_words(u
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_maximum_total_apparent_power_demand_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_maximum_total_apparent_power_demand_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* neutral current demand: any number in A; r, reference 30105; exists only when system_type == three_phase_four_wire */
 #define EASTRON_SDM630_NEUTRAL_CURRENT_DEMAND_ADDRESS 0x0068U
@@ -565,10 +393,6 @@ static inline void eastron_sdm630_neutral_current_demand_to_words(uint32_t raw, 
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_neutral_current_demand_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_neutral_current_demand_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * maximum neutral current demand: any number in A; r, reference 30107; exists only when system_type ==
@@ -580,10 +404,6 @@ static inline void eastron_sdm630_maximum_neutral_current_demand_to_words(uint32
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_maximum_neutral_current_demand_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_maximum_neutral_current_demand_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* line 1 to 2 voltage: any number in V; r, reference 30201; exists only when system_type != single_phase_two_wire */
 #define EASTRON_SDM630_LINE_1_TO_2_VOLTAGE_ADDRESS 0x00C8U
@@ -592,10 +412,6 @@ static inline void eastron_sdm630_line_1_to_2_voltage_to_words(uint32_t raw, uin
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_line_1_to_2_voltage_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_line_1_to_2_voltage_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* line 2 to 3 voltage: any number in V; r, reference 30203; exists only when system_type != single_phase_two_wire */
 #define EASTRON_SDM630_LINE_2_TO_3_VOLTAGE_ADDRESS 0x00CAU
@@ -604,10 +420,6 @@ static inline void eastron_sdm630_line_2_to_3_voltage_to_words(uint32_t raw, uin
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_line_2_to_3_voltage_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_line_2_to_3_voltage_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* line 3 to 1 voltage: any number in V; r, reference 30205; exists only when system_type != single_phase_two_wire */
 #define EASTRON_SDM630_LINE_3_TO_1_VOLTAGE_ADDRESS 0x00CCU
@@ -616,10 +428,6 @@ static inline void eastron_sdm630_line_3_to_1_voltage_to_words(uint32_t raw, uin
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_line_3_to_1_voltage_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_line_3_to_1_voltage_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * average line to line voltage: any number in V; r, reference 30207; exists only when system_type !=
@@ -631,10 +439,6 @@ static inline void eastron_sdm630_average_line_to_line_voltage_to_words(uint32_t
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_average_line_to_line_voltage_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_average_line_to_line_voltage_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* neutral current: any number in A; r, reference 30225; exists only when system_type == three_phase_four_wire */
 #define EASTRON_SDM630_NEUTRAL_CURRENT_ADDRESS 0x00E0U
@@ -643,10 +447,6 @@ static inline void eastron_sdm630_neutral_current_to_words(uint32_t raw, uint16_
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_neutral_current_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_neutral_current_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 1 voltage thd: any number in %; r, reference 30235; exists only when system_type != three_phase_three_wire */
 #define EASTRON_SDM630_PHASE_1_VOLTAGE_THD_ADDRESS 0x00EAU
@@ -655,10 +455,6 @@ static inline void eastron_sdm630_phase_1_voltage_thd_to_words(uint32_t raw, uin
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_1_voltage_thd_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_1_voltage_thd_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 2 voltage thd: any number in %; r, reference 30237; exists only when system_type == three_phase_four_wire */
 #define EASTRON_SDM630_PHASE_2_VOLTAGE_THD_ADDRESS 0x00ECU
@@ -667,10 +463,6 @@ static inline void eastron_sdm630_phase_2_voltage_thd_to_words(uint32_t raw, uin
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_2_voltage_thd_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_2_voltage_thd_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 3 voltage thd: any number in %; r, reference 30239; exists only when system_type == three_phase_four_wire */
 #define EASTRON_SDM630_PHASE_3_VOLTAGE_THD_ADDRESS 0x00EEU
@@ -679,10 +471,6 @@ static inline void eastron_sdm630_phase_3_voltage_thd_to_words(uint32_t raw, uin
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_3_voltage_thd_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_3_voltage_thd_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 1 current thd: any number in %; r, reference 30241 */
 #define EASTRON_SDM630_PHASE_1_CURRENT_THD_ADDRESS 0x00F0U
@@ -691,10 +479,6 @@ static inline void eastron_sdm630_phase_1_current_thd_to_words(uint32_t raw, uin
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_1_current_thd_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_1_current_thd_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 2 current thd: any number in %; r, reference 30243; exists only when system_type != single_phase_two_wire */
 #define EASTRON_SDM630_PHASE_2_CURRENT_THD_ADDRESS 0x00F2U
@@ -703,10 +487,6 @@ static inline void eastron_sdm630_phase_2_current_thd_to_words(uint32_t raw, uin
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_2_current_thd_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_2_current_thd_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 3 current thd: any number in %; r, reference 30245; exists only when system_type != single_phase_two_wire */
 #define EASTRON_SDM630_PHASE_3_CURRENT_THD_ADDRESS 0x00F4U
@@ -715,10 +495,6 @@ static inline void eastron_sdm630_phase_3_current_thd_to_words(uint32_t raw, uin
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_3_current_thd_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_3_current_thd_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * average voltage thd: any number in %; r, reference 30249; exists only when system_type != three_phase_three_wire; the
@@ -730,10 +506,6 @@ static inline void eastron_sdm630_average_voltage_thd_to_words(uint32_t raw, uin
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_average_voltage_thd_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_average_voltage_thd_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* average current thd: any number in %; r, reference 30251 */
 #define EASTRON_SDM630_AVERAGE_CURRENT_THD_ADDRESS 0x00FAU
@@ -742,10 +514,6 @@ static inline void eastron_sdm630_average_current_thd_to_words(uint32_t raw, uin
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_average_current_thd_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_average_current_thd_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 1 current demand: any number in A; r, reference 30259 */
 #define EASTRON_SDM630_PHASE_1_CURRENT_DEMAND_ADDRESS 0x0102U
@@ -754,10 +522,6 @@ static inline void eastron_sdm630_phase_1_current_demand_to_words(uint32_t raw, 
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_1_current_demand_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_1_current_demand_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 2 current demand: any number in A; r, reference 30261; exists only when system_type != single_phase_two_wire */
 #define EASTRON_SDM630_PHASE_2_CURRENT_DEMAND_ADDRESS 0x0104U
@@ -766,10 +530,6 @@ static inline void eastron_sdm630_phase_2_current_demand_to_words(uint32_t raw, 
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_2_current_demand_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_2_current_demand_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 3 current demand: any number in A; r, reference 30263; exists only when system_type != single_phase_two_wire */
 #define EASTRON_SDM630_PHASE_3_CURRENT_DEMAND_ADDRESS 0x0106U
@@ -778,10 +538,6 @@ static inline void eastron_sdm630_phase_3_current_demand_to_words(uint32_t raw, 
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_3_current_demand_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_3_current_demand_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* maximum phase 1 current demand: any number in A; r, reference 30265 */
 #define EASTRON_SDM630_MAXIMUM_PHASE_1_CURRENT_DEMAND_ADDRESS 0x0108U
@@ -790,10 +546,6 @@ static inline void eastron_sdm630_maximum_phase_1_current_demand_to_words(uint32
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_maximum_phase_1_current_demand_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_maximum_phase_1_current_demand_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * maximum phase 2 current demand: any number in A; r, reference 30267; exists only when system_type !=
@@ -805,10 +557,6 @@ static inline void eastron_sdm630_maximum_phase_2_current_demand_to_words(uint32
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_maximum_phase_2_current_demand_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_maximum_phase_2_current_demand_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * maximum phase 3 current demand: any number in A; r, reference 30269; exists only when system_type !=
@@ -820,10 +568,6 @@ static inline void eastron_sdm630_maximum_phase_3_current_demand_to_words(uint32
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_maximum_phase_3_current_demand_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_maximum_phase_3_current_demand_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * line 1 to 2 voltage thd: any number in %; r, reference 30335; exists only when system_type != single_phase_two_wire
@@ -834,10 +578,6 @@ static inline void eastron_sdm630_line_1_to_2_voltage_thd_to_words(uint32_t raw,
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_line_1_to_2_voltage_thd_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_line_1_to_2_voltage_thd_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * line 2 to 3 voltage thd: any number in %; r, reference 30337; exists only when system_type != single_phase_two_wire
@@ -848,10 +588,6 @@ static inline void eastron_sdm630_line_2_to_3_voltage_thd_to_words(uint32_t raw,
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_line_2_to_3_voltage_thd_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_line_2_to_3_voltage_thd_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * line 3 to 1 voltage thd: any number in %; r, reference 30339; exists only when system_type != single_phase_two_wire
@@ -862,10 +598,6 @@ static inline void eastron_sdm630_line_3_to_1_voltage_thd_to_words(uint32_t raw,
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_line_3_to_1_voltage_thd_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_line_3_to_1_voltage_thd_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * average line to line voltage thd: any number in %; r, reference 30341; exists only when system_type !=
@@ -877,10 +609,6 @@ static inline void eastron_sdm630_average_line_to_line_voltage_thd_to_words(uint
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_average_line_to_line_voltage_thd_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_average_line_to_line_voltage_thd_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* total active energy: any number in kWh; r, reference 30343 */
 #define EASTRON_SDM630_TOTAL_ACTIVE_ENERGY_ADDRESS 0x0156U
@@ -889,10 +617,6 @@ static inline void eastron_sdm630_total_active_energy_to_words(uint32_t raw, uin
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_total_active_energy_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_total_active_energy_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* total reactive energy: any number in kvarh; r, reference 30345 */
 #define EASTRON_SDM630_TOTAL_REACTIVE_ENERGY_ADDRESS 0x0158U
@@ -901,10 +625,6 @@ static inline void eastron_sdm630_total_reactive_energy_to_words(uint32_t raw, u
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_total_reactive_energy_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_total_reactive_energy_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 1 import active energy: any number in kWh; r, reference 30347 */
 #define EASTRON_SDM630_PHASE_1_IMPORT_ACTIVE_ENERGY_ADDRESS 0x015AU
@@ -913,10 +633,6 @@ static inline void eastron_sdm630_phase_1_import_active_energy_to_words(uint32_t
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_1_import_active_energy_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_1_import_active_energy_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * phase 2 import active energy: any number in kWh; r, reference 30349; the manual leaves open what the energies of a
@@ -928,10 +644,6 @@ static inline void eastron_sdm630_phase_2_import_active_energy_to_words(uint32_t
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_2_import_active_energy_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_2_import_active_energy_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * phase 3 import active energy: any number in kWh; r, reference 30351; the manual leaves open what the energies of a
@@ -943,10 +655,6 @@ static inline void eastron_sdm630_phase_3_import_active_energy_to_words(uint32_t
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_3_import_active_energy_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_3_import_active_energy_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 1 export active energy: any number in kWh; r, reference 30353 */
 #define EASTRON_SDM630_PHASE_1_EXPORT_ACTIVE_ENERGY_ADDRESS 0x0160U
@@ -955,10 +663,6 @@ static inline void eastron_sdm630_phase_1_export_active_energy_to_words(uint32_t
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_1_export_active_energy_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_1_export_active_energy_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * phase 2 export active energy: any number in kWh; r, reference 30355; the manual leaves open what the energies of a
@@ -970,10 +674,6 @@ static inline void eastron_sdm630_phase_2_export_active_energy_to_words(uint32_t
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_2_export_active_energy_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_2_export_active_energy_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * phase 3 export active energy: any number in kWh; r, reference 30357; the manual leaves open what the energies of a
@@ -985,10 +685,6 @@ static inline void eastron_sdm630_phase_3_export_active_energy_to_words(uint32_t
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_3_export_active_energy_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_3_export_active_energy_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 1 total active energy: any number in kWh; r, reference 30359 */
 #define EASTRON_SDM630_PHASE_1_TOTAL_ACTIVE_ENERGY_ADDRESS 0x0166U
@@ -997,10 +693,6 @@ static inline void eastron_sdm630_phase_1_total_active_energy_to_words(uint32_t 
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_1_total_active_energy_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_1_total_active_energy_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * phase 2 total active energy: any number in kWh; r, reference 30361; the manual leaves open what the energies of a
@@ -1012,10 +704,6 @@ static inline void eastron_sdm630_phase_2_total_active_energy_to_words(uint32_t 
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_2_total_active_energy_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_2_total_active_energy_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * phase 3 total active energy: any number in kWh; r, reference 30363; the manual leaves open what the energies of a
@@ -1027,10 +715,6 @@ static inline void eastron_sdm630_phase_3_total_active_energy_to_words(uint32_t 
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_3_total_active_energy_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_3_total_active_energy_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 1 import reactive energy: any number in kvarh; r, reference 30365 */
 #define EASTRON_SDM630_PHASE_1_IMPORT_REACTIVE_ENERGY_ADDRESS 0x016CU
@@ -1039,10 +723,6 @@ static inline void eastron_sdm630_phase_1_import_reactive_energy_to_words(uint32
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_1_import_reactive_energy_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_1_import_reactive_energy_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * phase 2 import reactive energy: any number in kvarh; r, reference 30367; the manual leaves open what the energies of
@@ -1054,10 +734,6 @@ static inline void eastron_sdm630_phase_2_import_reactive_energy_to_words(uint32
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_2_import_reactive_energy_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_2_import_reactive_energy_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * phase 3 import reactive energy: any number in kvarh; r, reference 30369; the manual leaves open what the energies of
@@ -1069,10 +745,6 @@ static inline void eastron_sdm630_phase_3_import_reactive_energy_to_words(uint32
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_3_import_reactive_energy_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_3_import_reactive_energy_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 1 export reactive energy: any number in kvarh; r, reference 30371 */
 #define EASTRON_SDM630_PHASE_1_EXPORT_REACTIVE_ENERGY_ADDRESS 0x0172U
@@ -1081,10 +753,6 @@ static inline void eastron_sdm630_phase_1_export_reactive_energy_to_words(uint32
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_1_export_reactive_energy_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_1_export_reactive_energy_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * phase 2 export reactive energy: any number in kvarh; r, reference 30373; the manual leaves open what the energies of
@@ -1096,10 +764,6 @@ static inline void eastron_sdm630_phase_2_export_reactive_energy_to_words(uint32
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_2_export_reactive_energy_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_2_export_reactive_energy_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * phase 3 export reactive energy: any number in kvarh; r, reference 30375; the manual leaves open what the energies of
@@ -1111,10 +775,6 @@ static inline void eastron_sdm630_phase_3_export_reactive_energy_to_words(uint32
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_3_export_reactive_energy_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_3_export_reactive_energy_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* phase 1 total reactive energy: any number in kvarh; r, reference 30377 */
 #define EASTRON_SDM630_PHASE_1_TOTAL_REACTIVE_ENERGY_ADDRESS 0x0178U
@@ -1123,10 +783,6 @@ static inline void eastron_sdm630_phase_1_total_reactive_energy_to_words(uint32_
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_1_total_reactive_energy_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_1_total_reactive_energy_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * phase 2 total reactive energy: any number in kvarh; r, reference 30379; the manual leaves open what the energies of a
@@ -1138,10 +794,6 @@ static inline void eastron_sdm630_phase_2_total_reactive_energy_to_words(uint32_
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_2_total_reactive_energy_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_2_total_reactive_energy_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * phase 3 total reactive energy: any number in kvarh; r, reference 30381; the manual leaves open what the energies of a
@@ -1153,10 +805,6 @@ static inline void eastron_sdm630_phase_3_total_reactive_energy_to_words(uint32_
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_phase_3_total_reactive_energy_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_phase_3_total_reactive_energy_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* ---- settings (holding) ---- */
 
@@ -1167,9 +815,6 @@ static inline void eastron_sdm630_demand_time_to_words(uint32_t raw, uint16_t wo
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_demand_time_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real eastron_sdm630_demand_time_decode(uint32_t raw) { return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * demand period: 0..0 or 5..5 or 8..8 or 10..10 or 15..15 or 20..20 or 30..30 or 60..60 min; rw, reference 40003;
@@ -1192,16 +837,6 @@ static inline void eastron_sdm630_demand_period_to_words(uint32_t raw, uint16_t 
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_demand_period_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS eastron_sdm630_demand_period_encode(fieldscribe_real value, uint32_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);
-    return fieldscribe_keep_u32(fieldscribe_both(whole.status,
-        eastron_sdm630_demand_period_check((uint32_t)whole.number)), (uint32_t)whole.number, raw);
-}
-static inline fieldscribe_real eastron_sdm630_demand_period_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 #define EASTRON_SDM630_SYSTEM_TYPE_SINGLE_PHASE_TWO_WIRE 1065353216 /* 1 */
 #define EASTRON_SDM630_SYSTEM_TYPE_THREE_PHASE_THREE_WIRE 1073741824 /* 2 */
@@ -1255,16 +890,6 @@ static inline void eastron_sdm630_pulse_1_width_to_words(uint32_t raw, uint16_t 
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_pulse_1_width_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS eastron_sdm630_pulse_1_width_encode(fieldscribe_real value, uint32_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);
-    return fieldscribe_keep_u32(fieldscribe_both(whole.status,
-        eastron_sdm630_pulse_1_width_check((uint32_t)whole.number)), (uint32_t)whole.number, raw);
-}
-static inline fieldscribe_real eastron_sdm630_pulse_1_width_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 #define EASTRON_SDM630_PASSWORD_LOCK_LOCKED 0 /* 0 */
 #define EASTRON_SDM630_PASSWORD_LOCK_UNLOCKED 1065353216 /* 1 */
@@ -1338,15 +963,6 @@ static inline void eastron_sdm630_network_node_to_words(uint32_t raw, uint16_t w
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_network_node_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS eastron_sdm630_network_node_encode(fieldscribe_real value, uint32_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);
-    return fieldscribe_keep_u32(fieldscribe_both(whole.status,
-        eastron_sdm630_network_node_check((uint32_t)whole.number)), (uint32_t)whole.number, raw);
-}
-static inline fieldscribe_real eastron_sdm630_network_node_decode(uint32_t raw) { return fieldscribe_f32_of_bits(raw); }
-#endif
 
 #define EASTRON_SDM630_PULSE_1_ENERGY_KWH_0_0025 0 /* 0.0025 kWh */
 #define EASTRON_SDM630_PULSE_1_ENERGY_KWH_0_01 1065353216 /* 0.01 kWh */
@@ -1399,15 +1015,6 @@ static inline void eastron_sdm630_password_to_words(uint32_t raw, uint16_t words
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_password_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS eastron_sdm630_password_encode(fieldscribe_real value, uint32_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);
-    return fieldscribe_keep_u32(fieldscribe_both(whole.status, eastron_sdm630_password_check((uint32_t)whole.number)),
-        (uint32_t)whole.number, raw);
-}
-static inline fieldscribe_real eastron_sdm630_password_decode(uint32_t raw) { return fieldscribe_f32_of_bits(raw); }
-#endif
 
 #define EASTRON_SDM630_NETWORK_BAUD_RATE_BAUD_2400 0 /* 0 */
 #define EASTRON_SDM630_NETWORK_BAUD_RATE_BAUD_4800 1065353216 /* 1 */
@@ -1500,9 +1107,7 @@ static inline uint32_t eastron_sdm630_pulse_1_energy_type_from_words(const uint1
 enum {
     EASTRON_SDM630_RESET_MAXIMUM_DEMAND = 0,
 };
-static const char *const eastron_sdm630_reset_names[] = {
-    "maximum_demand"
-};
+static const char *const eastron_sdm630_reset_names[] = {"maximum_demand"};
 static inline const char *eastron_sdm630_reset_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(eastron_sdm630_reset_names, raw); }
 
@@ -1534,7 +1139,209 @@ static inline void eastron_sdm630_register_order_to_words(uint32_t raw, uint16_t
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t eastron_sdm630_register_order_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
+
+/* ---- Values in floating point ---- */
+
 #ifndef FIELDSCRIBE_NO_FLOAT
+static inline fieldscribe_real eastron_sdm630_phase_1_voltage_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_2_voltage_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_3_voltage_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_1_current_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_2_current_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_3_current_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_1_active_power_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_2_active_power_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_3_active_power_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_1_apparent_power_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_2_apparent_power_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_3_apparent_power_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_1_reactive_power_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_2_reactive_power_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_3_reactive_power_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_1_power_factor_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_2_power_factor_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_3_power_factor_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_1_phase_angle_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_2_phase_angle_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_3_phase_angle_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_average_voltage_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_average_current_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_sum_of_currents_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_total_active_power_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_total_apparent_power_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_total_reactive_power_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_total_power_factor_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_total_phase_angle_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_frequency_decode(uint32_t raw) { return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_import_active_energy_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_export_active_energy_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_import_reactive_energy_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_export_reactive_energy_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_apparent_energy_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_charge_decode(uint32_t raw) { return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_total_active_power_demand_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_maximum_total_active_power_demand_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_total_apparent_power_demand_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_maximum_total_apparent_power_demand_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_neutral_current_demand_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_maximum_neutral_current_demand_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_line_1_to_2_voltage_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_line_2_to_3_voltage_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_line_3_to_1_voltage_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_average_line_to_line_voltage_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_neutral_current_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_1_voltage_thd_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_2_voltage_thd_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_3_voltage_thd_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_1_current_thd_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_2_current_thd_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_3_current_thd_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_average_voltage_thd_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_average_current_thd_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_1_current_demand_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_2_current_demand_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_3_current_demand_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_maximum_phase_1_current_demand_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_maximum_phase_2_current_demand_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_maximum_phase_3_current_demand_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_line_1_to_2_voltage_thd_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_line_2_to_3_voltage_thd_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_line_3_to_1_voltage_thd_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_average_line_to_line_voltage_thd_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_total_active_energy_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_total_reactive_energy_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_1_import_active_energy_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_2_import_active_energy_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_3_import_active_energy_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_1_export_active_energy_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_2_export_active_energy_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_3_export_active_energy_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_1_total_active_energy_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_2_total_active_energy_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_3_total_active_energy_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_1_import_reactive_energy_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_2_import_reactive_energy_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_3_import_reactive_energy_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_1_export_reactive_energy_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_2_export_reactive_energy_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_3_export_reactive_energy_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_1_total_reactive_energy_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_2_total_reactive_energy_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_phase_3_total_reactive_energy_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+static inline fieldscribe_real eastron_sdm630_demand_time_decode(uint32_t raw) { return fieldscribe_f32_of_bits(raw); }
+FIELDSCRIBE_STATUS eastron_sdm630_demand_period_encode(fieldscribe_real value, uint32_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);
+    return fieldscribe_keep_u32(fieldscribe_both(whole.status,
+        eastron_sdm630_demand_period_check((uint32_t)whole.number)), (uint32_t)whole.number, raw);
+}
+static inline fieldscribe_real eastron_sdm630_demand_period_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+FIELDSCRIBE_STATUS eastron_sdm630_pulse_1_width_encode(fieldscribe_real value, uint32_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);
+    return fieldscribe_keep_u32(fieldscribe_both(whole.status,
+        eastron_sdm630_pulse_1_width_check((uint32_t)whole.number)), (uint32_t)whole.number, raw);
+}
+static inline fieldscribe_real eastron_sdm630_pulse_1_width_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+FIELDSCRIBE_STATUS eastron_sdm630_network_node_encode(fieldscribe_real value, uint32_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);
+    return fieldscribe_keep_u32(fieldscribe_both(whole.status,
+        eastron_sdm630_network_node_check((uint32_t)whole.number)), (uint32_t)whole.number, raw);
+}
+static inline fieldscribe_real eastron_sdm630_network_node_decode(uint32_t raw) { return fieldscribe_f32_of_bits(raw); }
+FIELDSCRIBE_STATUS eastron_sdm630_password_encode(fieldscribe_real value, uint32_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);
+    return fieldscribe_keep_u32(fieldscribe_both(whole.status, eastron_sdm630_password_check((uint32_t)whole.number)),
+        (uint32_t)whole.number, raw);
+}
+static inline fieldscribe_real eastron_sdm630_password_decode(uint32_t raw) { return fieldscribe_f32_of_bits(raw); }
 FIELDSCRIBE_STATUS eastron_sdm630_register_order_encode(fieldscribe_real value, uint32_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);

@@ -14,7 +14,7 @@
 #ifndef EASTRON_SDM630_MODBUS_H
 #define EASTRON_SDM630_MODBUS_H
 
-#if FIELDSCRIBE_MODBUS_INTERFACE != 6
+#if FIELDSCRIBE_MODBUS_INTERFACE != 7
 #error "fieldscribe_modbus_facts.h is of another version: take the one that was generated with this header."
 #endif
 #if EASTRON_SDM630_DESCRIPTION != 0x2994a4a0U
@@ -217,91 +217,90 @@ typedef struct eastron_sdm630_measurements_group {
 static inline void eastron_sdm630_measurements_group_decode(
     size_t block, const uint16_t *words, eastron_sdm630_measurements_group *group)
 {
-    switch (block) {
-    case 0U:
+    if (block == 0U) {
         group->phase_1_voltage_raw = eastron_sdm630_phase_1_voltage_from_words(&words[0]);
-        break;
-    case 1U:
+    }
+    if (block == 1U) {
         group->phase_2_voltage_raw = eastron_sdm630_phase_2_voltage_from_words(&words[0]);
-        break;
-    case 2U:
+    }
+    if (block == 2U) {
         group->phase_3_voltage_raw = eastron_sdm630_phase_3_voltage_from_words(&words[0]);
-        break;
-    case 3U:
+    }
+    if (block == 3U) {
         group->phase_1_current_raw = eastron_sdm630_phase_1_current_from_words(&words[0]);
-        break;
-    case 4U:
+    }
+    if (block == 4U) {
         group->phase_2_current_raw = eastron_sdm630_phase_2_current_from_words(&words[0]);
-        break;
-    case 5U:
+    }
+    if (block == 5U) {
         group->phase_3_current_raw = eastron_sdm630_phase_3_current_from_words(&words[0]);
-        break;
-    case 6U:
+    }
+    if (block == 6U) {
         group->phase_1_active_power_raw = eastron_sdm630_phase_1_active_power_from_words(&words[0]);
-        break;
-    case 7U:
+    }
+    if (block == 7U) {
         group->phase_2_active_power_raw = eastron_sdm630_phase_2_active_power_from_words(&words[0]);
-        break;
-    case 8U:
+    }
+    if (block == 8U) {
         group->phase_3_active_power_raw = eastron_sdm630_phase_3_active_power_from_words(&words[0]);
-        break;
-    case 9U:
+    }
+    if (block == 9U) {
         group->phase_1_apparent_power_raw = eastron_sdm630_phase_1_apparent_power_from_words(&words[0]);
-        break;
-    case 10U:
+    }
+    if (block == 10U) {
         group->phase_2_apparent_power_raw = eastron_sdm630_phase_2_apparent_power_from_words(&words[0]);
-        break;
-    case 11U:
+    }
+    if (block == 11U) {
         group->phase_3_apparent_power_raw = eastron_sdm630_phase_3_apparent_power_from_words(&words[0]);
-        break;
-    case 12U:
+    }
+    if (block == 12U) {
         group->phase_1_reactive_power_raw = eastron_sdm630_phase_1_reactive_power_from_words(&words[0]);
-        break;
-    case 13U:
+    }
+    if (block == 13U) {
         group->phase_2_reactive_power_raw = eastron_sdm630_phase_2_reactive_power_from_words(&words[0]);
-        break;
-    case 14U:
+    }
+    if (block == 14U) {
         group->phase_3_reactive_power_raw = eastron_sdm630_phase_3_reactive_power_from_words(&words[0]);
-        break;
-    case 15U:
+    }
+    if (block == 15U) {
         group->phase_1_power_factor_raw = eastron_sdm630_phase_1_power_factor_from_words(&words[0]);
-        break;
-    case 16U:
+    }
+    if (block == 16U) {
         group->phase_2_power_factor_raw = eastron_sdm630_phase_2_power_factor_from_words(&words[0]);
-        break;
-    case 17U:
+    }
+    if (block == 17U) {
         group->phase_3_power_factor_raw = eastron_sdm630_phase_3_power_factor_from_words(&words[0]);
-        break;
-    case 18U:
+    }
+    if (block == 18U) {
         group->phase_1_phase_angle_raw = eastron_sdm630_phase_1_phase_angle_from_words(&words[0]);
-        break;
-    case 19U:
+    }
+    if (block == 19U) {
         group->phase_2_phase_angle_raw = eastron_sdm630_phase_2_phase_angle_from_words(&words[0]);
-        break;
-    case 20U:
+    }
+    if (block == 20U) {
         group->phase_3_phase_angle_raw = eastron_sdm630_phase_3_phase_angle_from_words(&words[0]);
-        break;
-    case 21U:
+    }
+    if (block == 21U) {
         group->average_voltage_raw = eastron_sdm630_average_voltage_from_words(&words[0]);
-        break;
-    case 22U:
+    }
+    if (block == 22U) {
         group->average_current_raw = eastron_sdm630_average_current_from_words(&words[0]);
         group->sum_of_currents_raw = eastron_sdm630_sum_of_currents_from_words(&words[2]);
-        break;
-    case 23U:
+    }
+    if (block == 23U) {
         group->total_active_power_raw = eastron_sdm630_total_active_power_from_words(&words[0]);
-        break;
-    case 24U:
+    }
+    if (block == 24U) {
         group->total_apparent_power_raw = eastron_sdm630_total_apparent_power_from_words(&words[0]);
-        break;
-    case 25U:
+    }
+    if (block == 25U) {
         group->total_reactive_power_raw = eastron_sdm630_total_reactive_power_from_words(&words[0]);
         group->total_power_factor_raw = eastron_sdm630_total_power_factor_from_words(&words[2]);
-        break;
-    case 26U:
+    }
+    if (block == 26U) {
         group->total_phase_angle_raw = eastron_sdm630_total_phase_angle_from_words(&words[0]);
-        break;
-    case 27U:
+    }
+    if (block == 27U) {
         group->frequency_raw = eastron_sdm630_frequency_from_words(&words[0]);
         group->import_active_energy_raw = eastron_sdm630_import_active_energy_from_words(&words[2]);
         group->export_active_energy_raw = eastron_sdm630_export_active_energy_from_words(&words[4]);
@@ -312,89 +311,89 @@ static inline void eastron_sdm630_measurements_group_decode(
         group->total_active_power_demand_raw = eastron_sdm630_total_active_power_demand_from_words(&words[14]);
         group->maximum_total_active_power_demand_raw = eastron_sdm630_maximum_total_active_power_demand_from_words(
             &words[16]);
-        break;
-    case 28U:
+    }
+    if (block == 28U) {
         group->total_apparent_power_demand_raw = eastron_sdm630_total_apparent_power_demand_from_words(&words[0]);
         group->maximum_total_apparent_power_demand_raw = eastron_sdm630_maximum_total_apparent_power_demand_from_words(
             &words[2]);
-        break;
-    case 29U:
+    }
+    if (block == 29U) {
         group->neutral_current_demand_raw = eastron_sdm630_neutral_current_demand_from_words(&words[0]);
-        break;
-    case 30U:
+    }
+    if (block == 30U) {
         group->maximum_neutral_current_demand_raw = eastron_sdm630_maximum_neutral_current_demand_from_words(&words[0]);
-        break;
-    case 31U:
+    }
+    if (block == 31U) {
         group->line_1_to_2_voltage_raw = eastron_sdm630_line_1_to_2_voltage_from_words(&words[0]);
-        break;
-    case 32U:
+    }
+    if (block == 32U) {
         group->line_2_to_3_voltage_raw = eastron_sdm630_line_2_to_3_voltage_from_words(&words[0]);
-        break;
-    case 33U:
+    }
+    if (block == 33U) {
         group->line_3_to_1_voltage_raw = eastron_sdm630_line_3_to_1_voltage_from_words(&words[0]);
-        break;
-    case 34U:
+    }
+    if (block == 34U) {
         group->average_line_to_line_voltage_raw = eastron_sdm630_average_line_to_line_voltage_from_words(&words[0]);
-        break;
-    case 35U:
+    }
+    if (block == 35U) {
         group->neutral_current_raw = eastron_sdm630_neutral_current_from_words(&words[0]);
-        break;
-    case 36U:
+    }
+    if (block == 36U) {
         group->phase_1_voltage_thd_raw = eastron_sdm630_phase_1_voltage_thd_from_words(&words[0]);
-        break;
-    case 37U:
+    }
+    if (block == 37U) {
         group->phase_2_voltage_thd_raw = eastron_sdm630_phase_2_voltage_thd_from_words(&words[0]);
-        break;
-    case 38U:
+    }
+    if (block == 38U) {
         group->phase_3_voltage_thd_raw = eastron_sdm630_phase_3_voltage_thd_from_words(&words[0]);
-        break;
-    case 39U:
+    }
+    if (block == 39U) {
         group->phase_1_current_thd_raw = eastron_sdm630_phase_1_current_thd_from_words(&words[0]);
-        break;
-    case 40U:
+    }
+    if (block == 40U) {
         group->phase_2_current_thd_raw = eastron_sdm630_phase_2_current_thd_from_words(&words[0]);
-        break;
-    case 41U:
+    }
+    if (block == 41U) {
         group->phase_3_current_thd_raw = eastron_sdm630_phase_3_current_thd_from_words(&words[0]);
-        break;
-    case 42U:
+    }
+    if (block == 42U) {
         group->average_voltage_thd_raw = eastron_sdm630_average_voltage_thd_from_words(&words[0]);
-        break;
-    case 43U:
+    }
+    if (block == 43U) {
         group->average_current_thd_raw = eastron_sdm630_average_current_thd_from_words(&words[0]);
-        break;
-    case 44U:
+    }
+    if (block == 44U) {
         group->phase_1_current_demand_raw = eastron_sdm630_phase_1_current_demand_from_words(&words[0]);
-        break;
-    case 45U:
+    }
+    if (block == 45U) {
         group->phase_2_current_demand_raw = eastron_sdm630_phase_2_current_demand_from_words(&words[0]);
-        break;
-    case 46U:
+    }
+    if (block == 46U) {
         group->phase_3_current_demand_raw = eastron_sdm630_phase_3_current_demand_from_words(&words[0]);
-        break;
-    case 47U:
+    }
+    if (block == 47U) {
         group->maximum_phase_1_current_demand_raw = eastron_sdm630_maximum_phase_1_current_demand_from_words(&words[0]);
-        break;
-    case 48U:
+    }
+    if (block == 48U) {
         group->maximum_phase_2_current_demand_raw = eastron_sdm630_maximum_phase_2_current_demand_from_words(&words[0]);
-        break;
-    case 49U:
+    }
+    if (block == 49U) {
         group->maximum_phase_3_current_demand_raw = eastron_sdm630_maximum_phase_3_current_demand_from_words(&words[0]);
-        break;
-    case 50U:
+    }
+    if (block == 50U) {
         group->line_1_to_2_voltage_thd_raw = eastron_sdm630_line_1_to_2_voltage_thd_from_words(&words[0]);
-        break;
-    case 51U:
+    }
+    if (block == 51U) {
         group->line_2_to_3_voltage_thd_raw = eastron_sdm630_line_2_to_3_voltage_thd_from_words(&words[0]);
-        break;
-    case 52U:
+    }
+    if (block == 52U) {
         group->line_3_to_1_voltage_thd_raw = eastron_sdm630_line_3_to_1_voltage_thd_from_words(&words[0]);
-        break;
-    case 53U:
+    }
+    if (block == 53U) {
         group->average_line_to_line_voltage_thd_raw = eastron_sdm630_average_line_to_line_voltage_thd_from_words(
             &words[0]);
-        break;
-    case 54U:
+    }
+    if (block == 54U) {
         group->total_active_energy_raw = eastron_sdm630_total_active_energy_from_words(&words[0]);
         group->total_reactive_energy_raw = eastron_sdm630_total_reactive_energy_from_words(&words[2]);
         group->phase_1_import_active_energy_raw = eastron_sdm630_phase_1_import_active_energy_from_words(&words[4]);
@@ -421,9 +420,6 @@ static inline void eastron_sdm630_measurements_group_decode(
         group->phase_1_total_reactive_energy_raw = eastron_sdm630_phase_1_total_reactive_energy_from_words(&words[34]);
         group->phase_2_total_reactive_energy_raw = eastron_sdm630_phase_2_total_reactive_energy_from_words(&words[36]);
         group->phase_3_total_reactive_energy_raw = eastron_sdm630_phase_3_total_reactive_energy_from_words(&words[38]);
-        break;
-    default:
-        break; /* there is no such block */
     }
 }
 
@@ -444,30 +440,26 @@ typedef struct eastron_sdm630_settings_group {
 static inline void eastron_sdm630_settings_group_decode(
     size_t block, const uint16_t *words, eastron_sdm630_settings_group *group)
 {
-    switch (block) {
-    case 0U:
+    if (block == 0U) {
         group->demand_time_raw = eastron_sdm630_demand_time_from_words(&words[0]);
         group->demand_period_raw = eastron_sdm630_demand_period_from_words(&words[2]);
-        break;
-    case 1U:
+    }
+    if (block == 1U) {
         group->system_type_raw = eastron_sdm630_system_type_from_words(&words[0]);
         group->pulse_1_width_raw = eastron_sdm630_pulse_1_width_from_words(&words[2]);
         group->password_lock_raw = eastron_sdm630_password_lock_from_words(&words[4]);
-        break;
-    case 2U:
+    }
+    if (block == 2U) {
         group->network_parity_and_stop_bits_raw = eastron_sdm630_network_parity_and_stop_bits_from_words(&words[0]);
         group->network_node_raw = eastron_sdm630_network_node_from_words(&words[2]);
         group->pulse_1_energy_raw = eastron_sdm630_pulse_1_energy_from_words(&words[4]);
         group->password_raw = eastron_sdm630_password_from_words(&words[6]);
-        break;
-    case 3U:
+    }
+    if (block == 3U) {
         group->network_baud_rate_raw = eastron_sdm630_network_baud_rate_from_words(&words[0]);
-        break;
-    case 4U:
+    }
+    if (block == 4U) {
         group->pulse_1_energy_type_raw = eastron_sdm630_pulse_1_energy_type_from_words(&words[0]);
-        break;
-    default:
-        break; /* there is no such block */
     }
 }
 
@@ -478,12 +470,8 @@ typedef struct eastron_sdm630_maintenance_group {
 static inline void eastron_sdm630_maintenance_group_decode(
     size_t block, const uint16_t *words, eastron_sdm630_maintenance_group *group)
 {
-    switch (block) {
-    case 0U:
+    if (block == 0U) {
         group->serial_number_raw = eastron_sdm630_serial_number_from_words(&words[0]);
-        break;
-    default:
-        break; /* there is no such block */
     }
 }
 
@@ -494,12 +482,8 @@ typedef struct eastron_sdm630_order_of_registers_group {
 static inline void eastron_sdm630_order_of_registers_group_decode(
     size_t block, const uint16_t *words, eastron_sdm630_order_of_registers_group *group)
 {
-    switch (block) {
-    case 0U:
+    if (block == 0U) {
         group->register_order_raw = eastron_sdm630_register_order_from_words(&words[0]);
-        break;
-    default:
-        break; /* there is no such block */
     }
 }
 
@@ -523,544 +507,453 @@ static const fieldscribe_layout eastron_sdm630_layout_u16 =
 static const fieldscribe_modbus_r eastron_sdm630_phase_1_voltage_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0000U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_1_voltage(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0000U, 2U, value, eastron_sdm630_phase_1_voltage_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0000U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_2_voltage_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0002U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_2_voltage(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0002U, 2U, value, eastron_sdm630_phase_2_voltage_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0002U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_3_voltage_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0004U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_3_voltage(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0004U, 2U, value, eastron_sdm630_phase_3_voltage_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0004U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_1_current_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0006U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_1_current(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0006U, 2U, value, eastron_sdm630_phase_1_current_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0006U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_2_current_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0008U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_2_current(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0008U, 2U, value, eastron_sdm630_phase_2_current_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0008U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_3_current_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x000AU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_3_current(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x000AU, 2U, value, eastron_sdm630_phase_3_current_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x000AU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_1_active_power_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x000CU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_1_active_power(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x000CU, 2U, value, eastron_sdm630_phase_1_active_power_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x000CU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_2_active_power_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x000EU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_2_active_power(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x000EU, 2U, value, eastron_sdm630_phase_2_active_power_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x000EU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_3_active_power_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0010U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_3_active_power(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0010U, 2U, value, eastron_sdm630_phase_3_active_power_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0010U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_1_apparent_power_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0012U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_1_apparent_power(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0012U, 2U, value, eastron_sdm630_phase_1_apparent_power_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0012U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_2_apparent_power_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0014U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_2_apparent_power(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0014U, 2U, value, eastron_sdm630_phase_2_apparent_power_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0014U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_3_apparent_power_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0016U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_3_apparent_power(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0016U, 2U, value, eastron_sdm630_phase_3_apparent_power_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0016U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_1_reactive_power_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0018U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_1_reactive_power(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0018U, 2U, value, eastron_sdm630_phase_1_reactive_power_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0018U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_2_reactive_power_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x001AU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_2_reactive_power(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x001AU, 2U, value, eastron_sdm630_phase_2_reactive_power_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x001AU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_3_reactive_power_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x001CU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_3_reactive_power(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x001CU, 2U, value, eastron_sdm630_phase_3_reactive_power_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x001CU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_1_power_factor_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x001EU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_1_power_factor(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x001EU, 2U, value, eastron_sdm630_phase_1_power_factor_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x001EU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_2_power_factor_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0020U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_2_power_factor(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0020U, 2U, value, eastron_sdm630_phase_2_power_factor_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0020U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_3_power_factor_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0022U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_3_power_factor(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0022U, 2U, value, eastron_sdm630_phase_3_power_factor_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0022U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_1_phase_angle_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0024U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_1_phase_angle(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0024U, 2U, value, eastron_sdm630_phase_1_phase_angle_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0024U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_2_phase_angle_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0026U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_2_phase_angle(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0026U, 2U, value, eastron_sdm630_phase_2_phase_angle_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0026U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_3_phase_angle_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0028U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_3_phase_angle(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0028U, 2U, value, eastron_sdm630_phase_3_phase_angle_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0028U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_average_voltage_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x002AU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_average_voltage(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x002AU, 2U, value, eastron_sdm630_average_voltage_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x002AU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_average_current_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x002EU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_average_current(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x002EU, 2U, value, eastron_sdm630_average_current_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x002EU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_sum_of_currents_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0030U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_sum_of_currents(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0030U, 2U, value, eastron_sdm630_sum_of_currents_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0030U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_total_active_power_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0034U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_total_active_power(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0034U, 2U, value, eastron_sdm630_total_active_power_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0034U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_total_apparent_power_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0038U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_total_apparent_power(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0038U, 2U, value, eastron_sdm630_total_apparent_power_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0038U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_total_reactive_power_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x003CU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_total_reactive_power(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x003CU, 2U, value, eastron_sdm630_total_reactive_power_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x003CU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_total_power_factor_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x003EU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_total_power_factor(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x003EU, 2U, value, eastron_sdm630_total_power_factor_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x003EU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_total_phase_angle_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0042U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_total_phase_angle(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0042U, 2U, value, eastron_sdm630_total_phase_angle_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0042U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_frequency_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0046U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_frequency(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0046U, 2U, value, eastron_sdm630_frequency_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0046U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_import_active_energy_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0048U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_import_active_energy(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0048U, 2U, value, eastron_sdm630_import_active_energy_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0048U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_export_active_energy_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x004AU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_export_active_energy(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x004AU, 2U, value, eastron_sdm630_export_active_energy_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x004AU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_import_reactive_energy_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x004CU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_import_reactive_energy(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x004CU, 2U, value, eastron_sdm630_import_reactive_energy_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x004CU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_export_reactive_energy_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x004EU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_export_reactive_energy(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x004EU, 2U, value, eastron_sdm630_export_reactive_energy_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x004EU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_apparent_energy_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0050U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_apparent_energy(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0050U, 2U, value, eastron_sdm630_apparent_energy_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0050U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_charge_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0052U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_charge(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0052U, 2U, value, eastron_sdm630_charge_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0052U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_total_active_power_demand_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0054U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_total_active_power_demand(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0054U, 2U, value, eastron_sdm630_total_active_power_demand_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0054U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_maximum_total_active_power_demand_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0056U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_maximum_total_active_power_demand(
     eastron_sdm630_device *device, uint32_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0056U, 2U, value,
-        eastron_sdm630_maximum_total_active_power_demand_from_words(words))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0056U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_total_apparent_power_demand_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0064U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_total_apparent_power_demand(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0064U, 2U, value, eastron_sdm630_total_apparent_power_demand_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0064U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_maximum_total_apparent_power_demand_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0066U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_maximum_total_apparent_power_demand(
     eastron_sdm630_device *device, uint32_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0066U, 2U, value,
-        eastron_sdm630_maximum_total_apparent_power_demand_from_words(words))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0066U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_neutral_current_demand_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0068U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_neutral_current_demand(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0068U, 2U, value, eastron_sdm630_neutral_current_demand_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0068U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_maximum_neutral_current_demand_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x006AU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_maximum_neutral_current_demand(
     eastron_sdm630_device *device, uint32_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x006AU, 2U, value,
-        eastron_sdm630_maximum_neutral_current_demand_from_words(words))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x006AU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_line_1_to_2_voltage_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x00C8U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_line_1_to_2_voltage(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x00C8U, 2U, value, eastron_sdm630_line_1_to_2_voltage_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x00C8U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_line_2_to_3_voltage_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x00CAU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_line_2_to_3_voltage(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x00CAU, 2U, value, eastron_sdm630_line_2_to_3_voltage_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x00CAU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_line_3_to_1_voltage_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x00CCU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_line_3_to_1_voltage(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x00CCU, 2U, value, eastron_sdm630_line_3_to_1_voltage_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x00CCU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_average_line_to_line_voltage_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x00CEU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_average_line_to_line_voltage(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x00CEU, 2U, value, eastron_sdm630_average_line_to_line_voltage_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x00CEU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_neutral_current_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x00E0U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_neutral_current(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x00E0U, 2U, value, eastron_sdm630_neutral_current_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x00E0U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_1_voltage_thd_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x00EAU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_1_voltage_thd(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x00EAU, 2U, value, eastron_sdm630_phase_1_voltage_thd_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x00EAU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_2_voltage_thd_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x00ECU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_2_voltage_thd(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x00ECU, 2U, value, eastron_sdm630_phase_2_voltage_thd_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x00ECU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_3_voltage_thd_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x00EEU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_3_voltage_thd(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x00EEU, 2U, value, eastron_sdm630_phase_3_voltage_thd_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x00EEU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_1_current_thd_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x00F0U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_1_current_thd(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x00F0U, 2U, value, eastron_sdm630_phase_1_current_thd_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x00F0U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_2_current_thd_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x00F2U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_2_current_thd(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x00F2U, 2U, value, eastron_sdm630_phase_2_current_thd_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x00F2U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_3_current_thd_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x00F4U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_3_current_thd(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x00F4U, 2U, value, eastron_sdm630_phase_3_current_thd_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x00F4U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_average_voltage_thd_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x00F8U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_average_voltage_thd(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x00F8U, 2U, value, eastron_sdm630_average_voltage_thd_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x00F8U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_average_current_thd_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x00FAU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_average_current_thd(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x00FAU, 2U, value, eastron_sdm630_average_current_thd_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x00FAU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_1_current_demand_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0102U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_1_current_demand(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0102U, 2U, value, eastron_sdm630_phase_1_current_demand_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0102U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_2_current_demand_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0104U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_2_current_demand(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0104U, 2U, value, eastron_sdm630_phase_2_current_demand_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0104U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_3_current_demand_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0106U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_3_current_demand(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0106U, 2U, value, eastron_sdm630_phase_3_current_demand_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0106U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_maximum_phase_1_current_demand_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0108U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_maximum_phase_1_current_demand(
     eastron_sdm630_device *device, uint32_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0108U, 2U, value,
-        eastron_sdm630_maximum_phase_1_current_demand_from_words(words))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0108U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_maximum_phase_2_current_demand_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x010AU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_maximum_phase_2_current_demand(
     eastron_sdm630_device *device, uint32_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x010AU, 2U, value,
-        eastron_sdm630_maximum_phase_2_current_demand_from_words(words))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x010AU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_maximum_phase_3_current_demand_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x010CU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_maximum_phase_3_current_demand(
     eastron_sdm630_device *device, uint32_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x010CU, 2U, value,
-        eastron_sdm630_maximum_phase_3_current_demand_from_words(words))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x010CU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_line_1_to_2_voltage_thd_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x014EU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_line_1_to_2_voltage_thd(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x014EU, 2U, value, eastron_sdm630_line_1_to_2_voltage_thd_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x014EU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_line_2_to_3_voltage_thd_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0150U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_line_2_to_3_voltage_thd(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0150U, 2U, value, eastron_sdm630_line_2_to_3_voltage_thd_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0150U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_line_3_to_1_voltage_thd_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0152U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_line_3_to_1_voltage_thd(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0152U, 2U, value, eastron_sdm630_line_3_to_1_voltage_thd_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0152U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_average_line_to_line_voltage_thd_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0154U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_average_line_to_line_voltage_thd(
     eastron_sdm630_device *device, uint32_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0154U, 2U, value,
-        eastron_sdm630_average_line_to_line_voltage_thd_from_words(words))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0154U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_total_active_energy_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0156U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_total_active_energy(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0156U, 2U, value, eastron_sdm630_total_active_energy_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0156U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_total_reactive_energy_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0158U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_total_reactive_energy(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0158U, 2U, value, eastron_sdm630_total_reactive_energy_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0158U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_1_import_active_energy_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x015AU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_1_import_active_energy(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x015AU, 2U, value, eastron_sdm630_phase_1_import_active_energy_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x015AU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_2_import_active_energy_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x015CU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_2_import_active_energy(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x015CU, 2U, value, eastron_sdm630_phase_2_import_active_energy_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x015CU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_3_import_active_energy_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x015EU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_3_import_active_energy(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x015EU, 2U, value, eastron_sdm630_phase_3_import_active_energy_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x015EU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_1_export_active_energy_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0160U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_1_export_active_energy(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0160U, 2U, value, eastron_sdm630_phase_1_export_active_energy_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0160U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_2_export_active_energy_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0162U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_2_export_active_energy(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0162U, 2U, value, eastron_sdm630_phase_2_export_active_energy_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0162U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_3_export_active_energy_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0164U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_3_export_active_energy(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0164U, 2U, value, eastron_sdm630_phase_3_export_active_energy_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0164U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_1_total_active_energy_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0166U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_1_total_active_energy(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0166U, 2U, value, eastron_sdm630_phase_1_total_active_energy_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0166U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_2_total_active_energy_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0168U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_2_total_active_energy(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0168U, 2U, value, eastron_sdm630_phase_2_total_active_energy_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0168U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_3_total_active_energy_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x016AU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_3_total_active_energy(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x016AU, 2U, value, eastron_sdm630_phase_3_total_active_energy_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x016AU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_1_import_reactive_energy_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x016CU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_1_import_reactive_energy(
     eastron_sdm630_device *device, uint32_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x016CU, 2U, value,
-        eastron_sdm630_phase_1_import_reactive_energy_from_words(words))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x016CU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_2_import_reactive_energy_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x016EU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_2_import_reactive_energy(
     eastron_sdm630_device *device, uint32_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x016EU, 2U, value,
-        eastron_sdm630_phase_2_import_reactive_energy_from_words(words))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x016EU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_3_import_reactive_energy_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0170U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_3_import_reactive_energy(
     eastron_sdm630_device *device, uint32_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0170U, 2U, value,
-        eastron_sdm630_phase_3_import_reactive_energy_from_words(words))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0170U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_1_export_reactive_energy_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0172U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_1_export_reactive_energy(
     eastron_sdm630_device *device, uint32_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0172U, 2U, value,
-        eastron_sdm630_phase_1_export_reactive_energy_from_words(words))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0172U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_2_export_reactive_energy_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0174U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_2_export_reactive_energy(
     eastron_sdm630_device *device, uint32_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0174U, 2U, value,
-        eastron_sdm630_phase_2_export_reactive_energy_from_words(words))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0174U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_3_export_reactive_energy_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0176U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_3_export_reactive_energy(
     eastron_sdm630_device *device, uint32_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0176U, 2U, value,
-        eastron_sdm630_phase_3_export_reactive_energy_from_words(words))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0176U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_1_total_reactive_energy_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x0178U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_1_total_reactive_energy(
     eastron_sdm630_device *device, uint32_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x0178U, 2U, value,
-        eastron_sdm630_phase_1_total_reactive_energy_from_words(words))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x0178U, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_2_total_reactive_energy_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x017AU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_2_total_reactive_energy(
     eastron_sdm630_device *device, uint32_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x017AU, 2U, value,
-        eastron_sdm630_phase_2_total_reactive_energy_from_words(words))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x017AU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_phase_3_total_reactive_energy_frame =
     {&eastron_sdm630_layout_u32_order_01, {4U, 0x017CU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_phase_3_total_reactive_energy(
     eastron_sdm630_device *device, uint32_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(4U, 0x017CU, 2U, value,
-        eastron_sdm630_phase_3_total_reactive_energy_from_words(words))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(4U, 0x017CU, 0U, value, raw) }
 static const fieldscribe_modbus_r eastron_sdm630_demand_time_frame =
     {&eastron_sdm630_layout_u32_order_01, {3U, 0x0000U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_demand_time(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x0000U, 2U, value, eastron_sdm630_demand_time_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x0000U, 0U, value, raw) }
 static const fieldscribe_modbus_rw eastron_sdm630_demand_period_frame =
     {&eastron_sdm630_layout_u32_order_01, {3U, 0x0002U, 2U}, {16U, 0x0002U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_demand_period(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x0002U, 2U, value, eastron_sdm630_demand_period_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x0002U, 0U, value, raw) }
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_write_demand_period(eastron_sdm630_device *device, uint32_t value)
 {
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x0002U, 2U, uint32_t,
-        fieldscribe_keep_u32(eastron_sdm630_demand_period_check(value), value, &raw),
-        eastron_sdm630_demand_period_to_words(raw, words))
+    FIELDSCRIBE_MODBUS_WRITE_LONG(16U, 0x0002U, 0U, uint32_t,
+        fieldscribe_keep_u32(eastron_sdm630_demand_period_check(value), value, &raw))
 }
 static const fieldscribe_modbus_rw eastron_sdm630_system_type_frame =
     {&eastron_sdm630_layout_u32_order_01, {3U, 0x000AU, 2U}, {16U, 0x000AU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_system_type(eastron_sdm630_device *device, int64_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x000AU, 2U, value,
-        eastron_sdm630_system_type_decode(eastron_sdm630_system_type_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x000AU, 0U, value, eastron_sdm630_system_type_decode(raw)) }
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_write_system_type(eastron_sdm630_device *device, int64_t value)
-{
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x000AU, 2U, uint32_t, eastron_sdm630_system_type_encode(value, &raw),
-        eastron_sdm630_system_type_to_words(raw, words))
-}
+{ FIELDSCRIBE_MODBUS_WRITE_LONG(16U, 0x000AU, 0U, uint32_t, eastron_sdm630_system_type_encode(value, &raw)) }
 static const fieldscribe_modbus_rw eastron_sdm630_pulse_1_width_frame =
     {&eastron_sdm630_layout_u32_order_01, {3U, 0x000CU, 2U}, {16U, 0x000CU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_pulse_1_width(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x000CU, 2U, value, eastron_sdm630_pulse_1_width_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x000CU, 0U, value, raw) }
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_write_pulse_1_width(eastron_sdm630_device *device, uint32_t value)
 {
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x000CU, 2U, uint32_t,
-        fieldscribe_keep_u32(eastron_sdm630_pulse_1_width_check(value), value, &raw),
-        eastron_sdm630_pulse_1_width_to_words(raw, words))
+    FIELDSCRIBE_MODBUS_WRITE_LONG(16U, 0x000CU, 0U, uint32_t,
+        fieldscribe_keep_u32(eastron_sdm630_pulse_1_width_check(value), value, &raw))
 }
 static const fieldscribe_modbus_rw eastron_sdm630_password_lock_frame =
     {&eastron_sdm630_layout_u32_order_01, {3U, 0x000EU, 2U}, {16U, 0x000EU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_password_lock(eastron_sdm630_device *device, int64_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x000EU, 2U, value,
-        eastron_sdm630_password_lock_decode(eastron_sdm630_password_lock_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x000EU, 0U, value, eastron_sdm630_password_lock_decode(raw)) }
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_write_password_lock(eastron_sdm630_device *device, int64_t value)
-{
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x000EU, 2U, uint32_t, eastron_sdm630_password_lock_encode(value, &raw),
-        eastron_sdm630_password_lock_to_words(raw, words))
-}
+{ FIELDSCRIBE_MODBUS_WRITE_LONG(16U, 0x000EU, 0U, uint32_t, eastron_sdm630_password_lock_encode(value, &raw)) }
 static const fieldscribe_modbus_rw eastron_sdm630_network_parity_and_stop_bits_frame =
     {&eastron_sdm630_layout_u32_order_01, {3U, 0x0012U, 2U}, {16U, 0x0012U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_network_parity_and_stop_bits(eastron_sdm630_device *device, int64_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x0012U, 2U, value,
-        eastron_sdm630_network_parity_and_stop_bits_decode(
-        eastron_sdm630_network_parity_and_stop_bits_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x0012U, 0U, value, eastron_sdm630_network_parity_and_stop_bits_decode(raw)) }
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_write_network_parity_and_stop_bits(eastron_sdm630_device *device, int64_t value)
 {
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x0012U, 2U, uint32_t,
-        eastron_sdm630_network_parity_and_stop_bits_encode(value, &raw),
-        eastron_sdm630_network_parity_and_stop_bits_to_words(raw, words))
+    FIELDSCRIBE_MODBUS_WRITE_LONG(16U, 0x0012U, 0U, uint32_t,
+        eastron_sdm630_network_parity_and_stop_bits_encode(value, &raw))
 }
 static const fieldscribe_modbus_rw eastron_sdm630_network_node_frame =
     {&eastron_sdm630_layout_u32_order_01, {3U, 0x0014U, 2U}, {16U, 0x0014U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_network_node(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x0014U, 2U, value, eastron_sdm630_network_node_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x0014U, 0U, value, raw) }
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_write_network_node(eastron_sdm630_device *device, uint32_t value)
 {
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x0014U, 2U, uint32_t,
-        fieldscribe_keep_u32(eastron_sdm630_network_node_check(value), value, &raw),
-        eastron_sdm630_network_node_to_words(raw, words))
+    FIELDSCRIBE_MODBUS_WRITE_LONG(16U, 0x0014U, 0U, uint32_t,
+        fieldscribe_keep_u32(eastron_sdm630_network_node_check(value), value, &raw))
 }
 static const fieldscribe_modbus_rw eastron_sdm630_pulse_1_energy_frame =
     {&eastron_sdm630_layout_u32_order_01, {3U, 0x0016U, 2U}, {16U, 0x0016U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_pulse_1_energy(eastron_sdm630_device *device, int64_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x0016U, 2U, value,
-        eastron_sdm630_pulse_1_energy_decode(eastron_sdm630_pulse_1_energy_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x0016U, 0U, value, eastron_sdm630_pulse_1_energy_decode(raw)) }
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_write_pulse_1_energy(eastron_sdm630_device *device, int64_t value)
-{
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x0016U, 2U, uint32_t, eastron_sdm630_pulse_1_energy_encode(value, &raw),
-        eastron_sdm630_pulse_1_energy_to_words(raw, words))
-}
+{ FIELDSCRIBE_MODBUS_WRITE_LONG(16U, 0x0016U, 0U, uint32_t, eastron_sdm630_pulse_1_energy_encode(value, &raw)) }
 static const fieldscribe_modbus_rw eastron_sdm630_password_frame =
     {&eastron_sdm630_layout_u32_order_01, {3U, 0x0018U, 2U}, {16U, 0x0018U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_password(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x0018U, 2U, value, eastron_sdm630_password_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x0018U, 0U, value, raw) }
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_write_password(eastron_sdm630_device *device, uint32_t value)
 {
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x0018U, 2U, uint32_t,
-        fieldscribe_keep_u32(eastron_sdm630_password_check(value), value, &raw),
-        eastron_sdm630_password_to_words(raw, words))
+    FIELDSCRIBE_MODBUS_WRITE_LONG(16U, 0x0018U, 0U, uint32_t,
+        fieldscribe_keep_u32(eastron_sdm630_password_check(value), value, &raw))
 }
 static const fieldscribe_modbus_rw eastron_sdm630_network_baud_rate_frame =
     {&eastron_sdm630_layout_u32_order_01, {3U, 0x001CU, 2U}, {16U, 0x001CU, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_network_baud_rate(eastron_sdm630_device *device, int64_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x001CU, 2U, value,
-        eastron_sdm630_network_baud_rate_decode(eastron_sdm630_network_baud_rate_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x001CU, 0U, value, eastron_sdm630_network_baud_rate_decode(raw)) }
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_write_network_baud_rate(eastron_sdm630_device *device, int64_t value)
-{
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x001CU, 2U, uint32_t, eastron_sdm630_network_baud_rate_encode(value, &raw),
-        eastron_sdm630_network_baud_rate_to_words(raw, words))
-}
+{ FIELDSCRIBE_MODBUS_WRITE_LONG(16U, 0x001CU, 0U, uint32_t, eastron_sdm630_network_baud_rate_encode(value, &raw)) }
 static const fieldscribe_modbus_rw eastron_sdm630_pulse_1_energy_type_frame =
     {&eastron_sdm630_layout_u32_order_01, {3U, 0x0056U, 2U}, {16U, 0x0056U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_pulse_1_energy_type(eastron_sdm630_device *device, int64_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x0056U, 2U, value,
-        eastron_sdm630_pulse_1_energy_type_decode(eastron_sdm630_pulse_1_energy_type_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x0056U, 0U, value, eastron_sdm630_pulse_1_energy_type_decode(raw)) }
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_write_pulse_1_energy_type(eastron_sdm630_device *device, int64_t value)
-{
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x0056U, 2U, uint32_t, eastron_sdm630_pulse_1_energy_type_encode(value, &raw),
-        eastron_sdm630_pulse_1_energy_type_to_words(raw, words))
-}
+{ FIELDSCRIBE_MODBUS_WRITE_LONG(16U, 0x0056U, 0U, uint32_t, eastron_sdm630_pulse_1_energy_type_encode(value, &raw)) }
 static const fieldscribe_modbus_w eastron_sdm630_reset_frame = {&eastron_sdm630_layout_u16, {16U, 0xF010U, 1U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_write_reset(eastron_sdm630_device *device, int32_t value)
 { FIELDSCRIBE_MODBUS_WRITE_WORD(16U, 0xF010U, uint16_t, eastron_sdm630_reset_encode(value, &raw), raw) }
 static const fieldscribe_modbus_r eastron_sdm630_serial_number_frame =
     {&eastron_sdm630_layout_u32_order_01, {3U, 0xFC00U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_serial_number(eastron_sdm630_device *device, int64_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0xFC00U, 2U, value,
-        eastron_sdm630_serial_number_decode(eastron_sdm630_serial_number_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0xFC00U, 0U, value, eastron_sdm630_serial_number_decode(raw)) }
 static const fieldscribe_modbus_rw eastron_sdm630_register_order_frame =
     {&eastron_sdm630_layout_u32_order_01, {3U, 0x0028U, 2U}, {16U, 0x0028U, 2U}};
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_read_register_order(eastron_sdm630_device *device, uint32_t *value)
-{ FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x0028U, 2U, value, eastron_sdm630_register_order_from_words(words)) }
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x0028U, 0U, value, raw) }
 FIELDSCRIBE_MODBUS_CALL eastron_sdm630_write_register_order(eastron_sdm630_device *device, uint32_t value)
 {
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x0028U, 2U, uint32_t,
-        fieldscribe_keep_u32(eastron_sdm630_register_order_check(value), value, &raw),
-        eastron_sdm630_register_order_to_words(raw, words))
+    FIELDSCRIBE_MODBUS_WRITE_LONG(16U, 0x0028U, 0U, uint32_t,
+        fieldscribe_keep_u32(eastron_sdm630_register_order_check(value), value, &raw))
 }
 
 #endif

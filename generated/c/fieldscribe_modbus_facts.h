@@ -9,7 +9,7 @@
 #define FIELDSCRIBE_MODBUS_FACTS_H
 
 /* The version that device headers check; it increases when they must be generated again. */
-#define FIELDSCRIBE_MODBUS_INTERFACE 6
+#define FIELDSCRIBE_MODBUS_INTERFACE 7
 
 /* In a profile: the device has no broadcast address. */
 #define FIELDSCRIBE_MODBUS_NO_BROADCAST 0xFFFFU

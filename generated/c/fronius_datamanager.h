@@ -7,7 +7,7 @@
  *
  * A raw number is the signed or unsigned integer on the wire. A value is its meaning in the unit. A count is the value
  * as an integer number of 10^-DECIMALS units. Encoding rounds to nearest, halves away from zero, and stores a result
- * only if it returns FRONIUS_DATAMANAGER_OK. Decoding accepts every raw number that a device may send.
+ * only if it returns FIELDSCRIBE_OK. Decoding accepts every raw number that a device may send.
  * fieldscribe.h explains FIELDSCRIBE_NO_FLOAT and FIELDSCRIBE_FLOAT32.
  */
 #ifndef FRONIUS_DATAMANAGER_H
@@ -15,7 +15,7 @@
 
 #include "fieldscribe.h"
 
-#if FIELDSCRIBE_INTERFACE != 1
+#if FIELDSCRIBE_INTERFACE != 2
 #error "fieldscribe.h is of another version: take the one that was generated with this header."
 #endif
 #if !defined(FIELDSCRIBE_NO_FLOAT) && !defined(FIELDSCRIBE_DOUBLE)
@@ -30,23 +30,9 @@
 #define FRONIUS_DATAMANAGER_DESCRIPTION_DIGEST "29107d9a0ac2d4d8"
 #define FRONIUS_DATAMANAGER_DESCRIPTION 0x29107d9aU /* for #if */
 
-typedef fieldscribe_status fronius_datamanager_status;
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-typedef fieldscribe_real fronius_datamanager_real;
-#endif
-#define FRONIUS_DATAMANAGER_OK FIELDSCRIBE_OK
-#define FRONIUS_DATAMANAGER_OUT_OF_RANGE FIELDSCRIBE_OUT_OF_RANGE
-#define FRONIUS_DATAMANAGER_NOT_A_NUMBER FIELDSCRIBE_NOT_A_NUMBER
-#define FRONIUS_DATAMANAGER_UNKNOWN_VALUE FIELDSCRIBE_UNKNOWN_VALUE
-#define FRONIUS_DATAMANAGER_ZERO_FACTOR FIELDSCRIBE_ZERO_FACTOR
-#define FRONIUS_DATAMANAGER_NO_CASE FIELDSCRIBE_NO_CASE
-#define FRONIUS_DATAMANAGER_OVERFLOW FIELDSCRIBE_OVERFLOW
-#define FRONIUS_DATAMANAGER_SPECIAL FIELDSCRIBE_SPECIAL
-#define FRONIUS_DATAMANAGER_MALFORMED FIELDSCRIBE_MALFORMED
 
 /* Points that identify the device and each of its variants, and what they hold, in the order of reading. */
 #define FRONIUS_DATAMANAGER_IDENTIFY_MANUFACTURER "Fronius"
-
 
 /* ---- common (holding) ---- */
 
@@ -146,13 +132,6 @@ static inline fieldscribe_rule fronius_datamanager_ac_current_rule(int16_t other
         : fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1), (int64_t)other_raw, -10, 10),
         -(int64_t)other_raw);
 }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_ac_current_decode(uint16_t raw, int16_t ac_current_exponent_raw, double *value)
-{
-    return fronius_datamanager_inverter_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(ac_current_exponent_raw), (int64_t)raw, value);
-}
-#endif
 
 /*
  * AphA phase a current: raw 0..65534; values in A; r, register 40073; no integer path: its counts need more than 64
@@ -162,14 +141,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_ac_current_decode(uint16_t raw, int16_t a
 #define fronius_datamanager_phase_a_current_is_special fronius_datamanager_inverter_u16_is_special
 #define fronius_datamanager_phase_a_current_special_name fronius_datamanager_inverter_u16_special_name
 #define fronius_datamanager_phase_a_current_is_no_value fronius_datamanager_inverter_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_phase_a_current_decode(
-    uint16_t raw, int16_t ac_current_exponent_raw, double *value)
-{
-    return fronius_datamanager_inverter_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(ac_current_exponent_raw), (int64_t)raw, value);
-}
-#endif
 
 /*
  * AphB phase b current: raw 0..65534; values in A; r, register 40074; no integer path: its counts need more than 64
@@ -179,14 +150,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_phase_a_current_decode(
 #define fronius_datamanager_phase_b_current_is_special fronius_datamanager_inverter_u16_is_special
 #define fronius_datamanager_phase_b_current_special_name fronius_datamanager_inverter_u16_special_name
 #define fronius_datamanager_phase_b_current_is_no_value fronius_datamanager_inverter_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_phase_b_current_decode(
-    uint16_t raw, int16_t ac_current_exponent_raw, double *value)
-{
-    return fronius_datamanager_inverter_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(ac_current_exponent_raw), (int64_t)raw, value);
-}
-#endif
 
 /*
  * AphC phase c current: raw 0..65534; values in A; r, register 40075; no integer path: its counts need more than 64
@@ -196,14 +159,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_phase_b_current_decode(
 #define fronius_datamanager_phase_c_current_is_special fronius_datamanager_inverter_u16_is_special
 #define fronius_datamanager_phase_c_current_special_name fronius_datamanager_inverter_u16_special_name
 #define fronius_datamanager_phase_c_current_is_no_value fronius_datamanager_inverter_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_phase_c_current_decode(
-    uint16_t raw, int16_t ac_current_exponent_raw, double *value)
-{
-    return fronius_datamanager_inverter_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(ac_current_exponent_raw), (int64_t)raw, value);
-}
-#endif
 
 /* A_SF ac current exponent: -10..10; r, register 40076; Special code: 8000h not_implemented */
 #define FRONIUS_DATAMANAGER_AC_CURRENT_EXPONENT_ADDRESS 0x0006U
@@ -236,14 +191,6 @@ static inline int16_t fronius_datamanager_ac_current_exponent_from_words(const u
 #define fronius_datamanager_phase_a_to_b_voltage_is_special fronius_datamanager_inverter_u16_is_special
 #define fronius_datamanager_phase_a_to_b_voltage_special_name fronius_datamanager_inverter_u16_special_name
 #define fronius_datamanager_phase_a_to_b_voltage_is_no_value fronius_datamanager_inverter_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_phase_a_to_b_voltage_decode(
-    uint16_t raw, int16_t ac_voltage_exponent_raw, double *value)
-{
-    return fronius_datamanager_inverter_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(ac_voltage_exponent_raw), (int64_t)raw, value);
-}
-#endif
 
 /*
  * PPVphBC phase b to c voltage: raw 0..65534; values in V; r, register 40078; no integer path: its counts need more
@@ -253,14 +200,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_phase_a_to_b_voltage_decode(
 #define fronius_datamanager_phase_b_to_c_voltage_is_special fronius_datamanager_inverter_u16_is_special
 #define fronius_datamanager_phase_b_to_c_voltage_special_name fronius_datamanager_inverter_u16_special_name
 #define fronius_datamanager_phase_b_to_c_voltage_is_no_value fronius_datamanager_inverter_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_phase_b_to_c_voltage_decode(
-    uint16_t raw, int16_t ac_voltage_exponent_raw, double *value)
-{
-    return fronius_datamanager_inverter_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(ac_voltage_exponent_raw), (int64_t)raw, value);
-}
-#endif
 
 /*
  * PPVphCA phase c to a voltage: raw 0..65534; values in V; r, register 40079; no integer path: its counts need more
@@ -270,14 +209,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_phase_b_to_c_voltage_decode(
 #define fronius_datamanager_phase_c_to_a_voltage_is_special fronius_datamanager_inverter_u16_is_special
 #define fronius_datamanager_phase_c_to_a_voltage_special_name fronius_datamanager_inverter_u16_special_name
 #define fronius_datamanager_phase_c_to_a_voltage_is_no_value fronius_datamanager_inverter_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_phase_c_to_a_voltage_decode(
-    uint16_t raw, int16_t ac_voltage_exponent_raw, double *value)
-{
-    return fronius_datamanager_inverter_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(ac_voltage_exponent_raw), (int64_t)raw, value);
-}
-#endif
 
 /*
  * PhVphA phase a voltage: raw 0..65534; values in V; r, register 40080; no integer path: its counts need more than 64
@@ -287,14 +218,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_phase_c_to_a_voltage_decode(
 #define fronius_datamanager_phase_a_voltage_is_special fronius_datamanager_inverter_u16_is_special
 #define fronius_datamanager_phase_a_voltage_special_name fronius_datamanager_inverter_u16_special_name
 #define fronius_datamanager_phase_a_voltage_is_no_value fronius_datamanager_inverter_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_phase_a_voltage_decode(
-    uint16_t raw, int16_t ac_voltage_exponent_raw, double *value)
-{
-    return fronius_datamanager_inverter_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(ac_voltage_exponent_raw), (int64_t)raw, value);
-}
-#endif
 
 /*
  * PhVphB phase b voltage: raw 0..65534; values in V; r, register 40081; no integer path: its counts need more than 64
@@ -304,14 +227,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_phase_a_voltage_decode(
 #define fronius_datamanager_phase_b_voltage_is_special fronius_datamanager_inverter_u16_is_special
 #define fronius_datamanager_phase_b_voltage_special_name fronius_datamanager_inverter_u16_special_name
 #define fronius_datamanager_phase_b_voltage_is_no_value fronius_datamanager_inverter_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_phase_b_voltage_decode(
-    uint16_t raw, int16_t ac_voltage_exponent_raw, double *value)
-{
-    return fronius_datamanager_inverter_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(ac_voltage_exponent_raw), (int64_t)raw, value);
-}
-#endif
 
 /*
  * PhVphC phase c voltage: raw 0..65534; values in V; r, register 40082; no integer path: its counts need more than 64
@@ -321,14 +236,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_phase_b_voltage_decode(
 #define fronius_datamanager_phase_c_voltage_is_special fronius_datamanager_inverter_u16_is_special
 #define fronius_datamanager_phase_c_voltage_special_name fronius_datamanager_inverter_u16_special_name
 #define fronius_datamanager_phase_c_voltage_is_no_value fronius_datamanager_inverter_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_phase_c_voltage_decode(
-    uint16_t raw, int16_t ac_voltage_exponent_raw, double *value)
-{
-    return fronius_datamanager_inverter_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(ac_voltage_exponent_raw), (int64_t)raw, value);
-}
-#endif
 
 /* V_SF ac voltage exponent: -10..10; r, register 40083; Special code: 8000h not_implemented */
 #define FRONIUS_DATAMANAGER_AC_VOLTAGE_EXPONENT_ADDRESS 0x000DU
@@ -356,13 +263,6 @@ static inline int16_t fronius_datamanager_ac_voltage_exponent_from_words(const u
 static inline void fronius_datamanager_ac_power_to_words(int16_t raw, uint16_t words[1]) { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_ac_power_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_ac_power_decode(int16_t raw, int16_t ac_power_exponent_raw, double *value)
-{
-    return fronius_datamanager_inverter_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(ac_power_exponent_raw), (int64_t)raw, value);
-}
-#endif
 
 /* W_SF ac power exponent: -10..10; r, register 40085; Special code: 8000h not_implemented */
 #define FRONIUS_DATAMANAGER_AC_POWER_EXPONENT_ADDRESS 0x000FU
@@ -387,13 +287,6 @@ static inline int16_t fronius_datamanager_ac_power_exponent_from_words(const uin
 #define fronius_datamanager_frequency_is_special fronius_datamanager_inverter_u16_is_special
 #define fronius_datamanager_frequency_special_name fronius_datamanager_inverter_u16_special_name
 #define fronius_datamanager_frequency_is_no_value fronius_datamanager_inverter_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_frequency_decode(uint16_t raw, int16_t frequency_exponent_raw, double *value)
-{
-    return fronius_datamanager_inverter_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(frequency_exponent_raw), (int64_t)raw, value);
-}
-#endif
 
 /* Hz_SF frequency exponent: -10..10; r, register 40087; Special code: 8000h not_implemented */
 #define FRONIUS_DATAMANAGER_FREQUENCY_EXPONENT_ADDRESS 0x0011U
@@ -422,15 +315,6 @@ static inline void fronius_datamanager_apparent_power_to_words(int16_t raw, uint
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_apparent_power_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_apparent_power_decode(
-    int16_t raw, int16_t apparent_power_exponent_raw, double *value)
-{
-    return fronius_datamanager_inverter_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(apparent_power_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /* VA_SF apparent power exponent: -10..10; r, register 40089; Special code: 8000h not_implemented */
 #define FRONIUS_DATAMANAGER_APPARENT_POWER_EXPONENT_ADDRESS 0x0013U
@@ -459,15 +343,6 @@ static inline void fronius_datamanager_reactive_power_to_words(int16_t raw, uint
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_reactive_power_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_reactive_power_decode(
-    int16_t raw, int16_t reactive_power_exponent_raw, double *value)
-{
-    return fronius_datamanager_inverter_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(reactive_power_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /* VAr_SF reactive power exponent: -10..10; r, register 40091; Special code: 8000h not_implemented */
 #define FRONIUS_DATAMANAGER_REACTIVE_POWER_EXPONENT_ADDRESS 0x0015U
@@ -496,14 +371,6 @@ static inline void fronius_datamanager_power_factor_to_words(int16_t raw, uint16
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_power_factor_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_power_factor_decode(
-    int16_t raw, int16_t power_factor_exponent_raw, double *value)
-{
-    return fronius_datamanager_inverter_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(power_factor_exponent_raw), (int64_t)raw, value);
-}
-#endif
 
 /* PF_SF power factor exponent: -10..10; r, register 40093; Special code: 8000h not_implemented */
 #define FRONIUS_DATAMANAGER_POWER_FACTOR_EXPONENT_ADDRESS 0x0017U
@@ -541,14 +408,6 @@ static inline void fronius_datamanager_lifetime_energy_to_words(uint32_t raw, ui
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t fronius_datamanager_lifetime_energy_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_lifetime_energy_decode(
-    uint32_t raw, int16_t lifetime_energy_exponent_raw, double *value)
-{
-    return fronius_datamanager_inverter_u32_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_wide(fronius_datamanager_ac_current_rule(lifetime_energy_exponent_raw), false, raw, value);
-}
-#endif
 
 /* WH_SF lifetime energy exponent: -10..10; r, register 40096; Special code: 8000h not_implemented */
 #define FRONIUS_DATAMANAGER_LIFETIME_ENERGY_EXPONENT_ADDRESS 0x001AU
@@ -573,13 +432,6 @@ static inline int16_t fronius_datamanager_lifetime_energy_exponent_from_words(co
 #define fronius_datamanager_dc_current_is_special fronius_datamanager_inverter_u16_is_special
 #define fronius_datamanager_dc_current_special_name fronius_datamanager_inverter_u16_special_name
 #define fronius_datamanager_dc_current_is_no_value fronius_datamanager_inverter_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_dc_current_decode(uint16_t raw, int16_t dc_current_exponent_raw, double *value)
-{
-    return fronius_datamanager_inverter_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(dc_current_exponent_raw), (int64_t)raw, value);
-}
-#endif
 
 /* DCA_SF dc current exponent: -10..10; r, register 40098; Special code: 8000h not_implemented */
 #define FRONIUS_DATAMANAGER_DC_CURRENT_EXPONENT_ADDRESS 0x001CU
@@ -604,13 +456,6 @@ static inline int16_t fronius_datamanager_dc_current_exponent_from_words(const u
 #define fronius_datamanager_dc_voltage_is_special fronius_datamanager_inverter_u16_is_special
 #define fronius_datamanager_dc_voltage_special_name fronius_datamanager_inverter_u16_special_name
 #define fronius_datamanager_dc_voltage_is_no_value fronius_datamanager_inverter_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_dc_voltage_decode(uint16_t raw, int16_t dc_voltage_exponent_raw, double *value)
-{
-    return fronius_datamanager_inverter_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(dc_voltage_exponent_raw), (int64_t)raw, value);
-}
-#endif
 
 /* DCV_SF dc voltage exponent: -10..10; r, register 40100; Special code: 8000h not_implemented */
 #define FRONIUS_DATAMANAGER_DC_VOLTAGE_EXPONENT_ADDRESS 0x001EU
@@ -638,13 +483,6 @@ static inline int16_t fronius_datamanager_dc_voltage_exponent_from_words(const u
 static inline void fronius_datamanager_dc_power_to_words(int16_t raw, uint16_t words[1]) { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_dc_power_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_dc_power_decode(int16_t raw, int16_t dc_power_exponent_raw, double *value)
-{
-    return fronius_datamanager_inverter_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(dc_power_exponent_raw), (int64_t)raw, value);
-}
-#endif
 
 /* DCW_SF dc power exponent: -10..10; r, register 40102; Special code: 8000h not_implemented */
 #define FRONIUS_DATAMANAGER_DC_POWER_EXPONENT_ADDRESS 0x0020U
@@ -673,14 +511,6 @@ static inline void fronius_datamanager_cabinet_temperature_to_words(int16_t raw,
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_cabinet_temperature_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_cabinet_temperature_decode(
-    int16_t raw, int16_t temperature_exponent_raw, double *value)
-{
-    return fronius_datamanager_inverter_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(temperature_exponent_raw), (int64_t)raw, value);
-}
-#endif
 
 /*
  * TmpSnk heat sink temperature: raw -32767..32767; values in °C; r, register 40104; no integer path: its counts need
@@ -694,14 +524,6 @@ static inline void fronius_datamanager_heat_sink_temperature_to_words(int16_t ra
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_heat_sink_temperature_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_heat_sink_temperature_decode(
-    int16_t raw, int16_t temperature_exponent_raw, double *value)
-{
-    return fronius_datamanager_inverter_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(temperature_exponent_raw), (int64_t)raw, value);
-}
-#endif
 
 /*
  * TmpTrns transformer temperature: raw -32767..32767; values in °C; r, register 40105; no integer path: its counts need
@@ -715,14 +537,6 @@ static inline void fronius_datamanager_transformer_temperature_to_words(int16_t 
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_transformer_temperature_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_transformer_temperature_decode(
-    int16_t raw, int16_t temperature_exponent_raw, double *value)
-{
-    return fronius_datamanager_inverter_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(temperature_exponent_raw), (int64_t)raw, value);
-}
-#endif
 
 /*
  * TmpOt other temperature: raw -32767..32767; values in °C; r, register 40106; no integer path: its counts need more
@@ -736,14 +550,6 @@ static inline void fronius_datamanager_other_temperature_to_words(int16_t raw, u
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_other_temperature_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_other_temperature_decode(
-    int16_t raw, int16_t temperature_exponent_raw, double *value)
-{
-    return fronius_datamanager_inverter_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(temperature_exponent_raw), (int64_t)raw, value);
-}
-#endif
 
 /* Tmp_SF temperature exponent: -10..10; r, register 40107; Special code: 8000h not_implemented */
 #define FRONIUS_DATAMANAGER_TEMPERATURE_EXPONENT_ADDRESS 0x0025U
@@ -958,9 +764,7 @@ static inline uint32_t fronius_datamanager_vendor_events_4_from_words(const uint
 enum {
     FRONIUS_DATAMANAGER_DER_TYPE_PV = 4,
 };
-static const fieldscribe_name fronius_datamanager_der_type_names[] = {
-    {FRONIUS_DATAMANAGER_DER_TYPE_PV, "pv"}
-};
+static const fieldscribe_name fronius_datamanager_der_type_names[] = {{FRONIUS_DATAMANAGER_DER_TYPE_PV, "pv"}};
 static inline const char *fronius_datamanager_der_type_name(int32_t raw)
 {
     return fieldscribe_name_of(fronius_datamanager_der_type_names,
@@ -994,13 +798,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_der_type_decode(uint16_t raw, int32_t *va
 #define fronius_datamanager_rated_power_is_special fronius_datamanager_nameplate_u16_is_special
 #define fronius_datamanager_rated_power_special_name fronius_datamanager_nameplate_u16_special_name
 #define fronius_datamanager_rated_power_is_no_value fronius_datamanager_nameplate_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_rated_power_decode(uint16_t raw, int16_t rated_power_exponent_raw, double *value)
-{
-    return fronius_datamanager_nameplate_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(rated_power_exponent_raw), (int64_t)raw, value);
-}
-#endif
 
 /* WRtg_SF rated power exponent: -10..10; r, register 40126; Special code: 8000h not_implemented */
 #define FRONIUS_DATAMANAGER_RATED_POWER_EXPONENT_ADDRESS 0x0004U
@@ -1033,15 +830,6 @@ static inline int16_t fronius_datamanager_rated_power_exponent_from_words(const 
 #define fronius_datamanager_rated_apparent_power_is_special fronius_datamanager_nameplate_u16_is_special
 #define fronius_datamanager_rated_apparent_power_special_name fronius_datamanager_nameplate_u16_special_name
 #define fronius_datamanager_rated_apparent_power_is_no_value fronius_datamanager_nameplate_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_rated_apparent_power_decode(
-    uint16_t raw, int16_t rated_apparent_power_exponent_raw, double *value)
-{
-    return fronius_datamanager_nameplate_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(rated_apparent_power_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /* VARtg_SF rated apparent power exponent: -10..10; r, register 40128; Special code: 8000h not_implemented */
 #define FRONIUS_DATAMANAGER_RATED_APPARENT_POWER_EXPONENT_ADDRESS 0x0006U
@@ -1070,15 +858,6 @@ static inline void fronius_datamanager_rated_reactive_power_q1_to_words(int16_t 
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_rated_reactive_power_q1_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_rated_reactive_power_q1_decode(
-    int16_t raw, int16_t rated_reactive_power_exponent_raw, double *value)
-{
-    return fronius_datamanager_nameplate_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(rated_reactive_power_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /*
  * VArRtgQ2 rated reactive power q2: raw -32767..32767; values in var; r, register 40130; no integer path: its counts
@@ -1092,15 +871,6 @@ static inline void fronius_datamanager_rated_reactive_power_q2_to_words(int16_t 
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_rated_reactive_power_q2_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_rated_reactive_power_q2_decode(
-    int16_t raw, int16_t rated_reactive_power_exponent_raw, double *value)
-{
-    return fronius_datamanager_nameplate_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(rated_reactive_power_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /*
  * VArRtgQ3 rated reactive power q3: raw -32767..32767; values in var; r, register 40131; no integer path: its counts
@@ -1114,15 +884,6 @@ static inline void fronius_datamanager_rated_reactive_power_q3_to_words(int16_t 
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_rated_reactive_power_q3_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_rated_reactive_power_q3_decode(
-    int16_t raw, int16_t rated_reactive_power_exponent_raw, double *value)
-{
-    return fronius_datamanager_nameplate_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(rated_reactive_power_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /*
  * VArRtgQ4 rated reactive power q4: raw -32767..32767; values in var; r, register 40132; no integer path: its counts
@@ -1136,15 +897,6 @@ static inline void fronius_datamanager_rated_reactive_power_q4_to_words(int16_t 
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_rated_reactive_power_q4_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_rated_reactive_power_q4_decode(
-    int16_t raw, int16_t rated_reactive_power_exponent_raw, double *value)
-{
-    return fronius_datamanager_nameplate_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(rated_reactive_power_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /* VArRtg_SF rated reactive power exponent: -10..10; r, register 40133; Special code: 8000h not_implemented */
 #define FRONIUS_DATAMANAGER_RATED_REACTIVE_POWER_EXPONENT_ADDRESS 0x000BU
@@ -1169,15 +921,6 @@ static inline int16_t fronius_datamanager_rated_reactive_power_exponent_from_wor
 #define fronius_datamanager_rated_current_is_special fronius_datamanager_nameplate_u16_is_special
 #define fronius_datamanager_rated_current_special_name fronius_datamanager_nameplate_u16_special_name
 #define fronius_datamanager_rated_current_is_no_value fronius_datamanager_nameplate_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_rated_current_decode(
-    uint16_t raw, int16_t rated_current_exponent_raw, double *value)
-{
-    return fronius_datamanager_nameplate_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(rated_current_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /* ARtg_SF rated current exponent: -10..10; r, register 40135; Special code: 8000h not_implemented */
 #define FRONIUS_DATAMANAGER_RATED_CURRENT_EXPONENT_ADDRESS 0x000DU
@@ -1206,15 +949,6 @@ static inline void fronius_datamanager_rated_power_factor_q1_to_words(int16_t ra
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_rated_power_factor_q1_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_rated_power_factor_q1_decode(
-    int16_t raw, int16_t rated_power_factor_exponent_raw, double *value)
-{
-    return fronius_datamanager_nameplate_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(rated_power_factor_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /*
  * PFRtgQ2 rated power factor q2: raw -32767..32767; r, register 40137; no integer path: its counts need more than 64
@@ -1228,15 +962,6 @@ static inline void fronius_datamanager_rated_power_factor_q2_to_words(int16_t ra
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_rated_power_factor_q2_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_rated_power_factor_q2_decode(
-    int16_t raw, int16_t rated_power_factor_exponent_raw, double *value)
-{
-    return fronius_datamanager_nameplate_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(rated_power_factor_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /*
  * PFRtgQ3 rated power factor q3: raw -32767..32767; r, register 40138; no integer path: its counts need more than 64
@@ -1250,15 +975,6 @@ static inline void fronius_datamanager_rated_power_factor_q3_to_words(int16_t ra
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_rated_power_factor_q3_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_rated_power_factor_q3_decode(
-    int16_t raw, int16_t rated_power_factor_exponent_raw, double *value)
-{
-    return fronius_datamanager_nameplate_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(rated_power_factor_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /*
  * PFRtgQ4 rated power factor q4: raw -32767..32767; r, register 40139; no integer path: its counts need more than 64
@@ -1272,15 +988,6 @@ static inline void fronius_datamanager_rated_power_factor_q4_to_words(int16_t ra
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_rated_power_factor_q4_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_rated_power_factor_q4_decode(
-    int16_t raw, int16_t rated_power_factor_exponent_raw, double *value)
-{
-    return fronius_datamanager_nameplate_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(rated_power_factor_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /* PFRtg_SF rated power factor exponent: -10..10; r, register 40140; Special code: 8000h not_implemented */
 #define FRONIUS_DATAMANAGER_RATED_POWER_FACTOR_EXPONENT_ADDRESS 0x0012U
@@ -1305,14 +1012,6 @@ static inline int16_t fronius_datamanager_rated_power_factor_exponent_from_words
 #define fronius_datamanager_rated_energy_is_special fronius_datamanager_nameplate_u16_is_special
 #define fronius_datamanager_rated_energy_special_name fronius_datamanager_nameplate_u16_special_name
 #define fronius_datamanager_rated_energy_is_no_value fronius_datamanager_nameplate_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_rated_energy_decode(
-    uint16_t raw, int16_t rated_energy_exponent_raw, double *value)
-{
-    return fronius_datamanager_nameplate_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(rated_energy_exponent_raw), (int64_t)raw, value);
-}
-#endif
 
 /* WHRtg_SF rated energy exponent: -10..10; r, register 40142; Special code: 8000h not_implemented */
 #define FRONIUS_DATAMANAGER_RATED_ENERGY_EXPONENT_ADDRESS 0x0014U
@@ -1337,14 +1036,6 @@ static inline int16_t fronius_datamanager_rated_energy_exponent_from_words(const
 #define fronius_datamanager_rated_charge_is_special fronius_datamanager_nameplate_u16_is_special
 #define fronius_datamanager_rated_charge_special_name fronius_datamanager_nameplate_u16_special_name
 #define fronius_datamanager_rated_charge_is_no_value fronius_datamanager_nameplate_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_rated_charge_decode(
-    uint16_t raw, int16_t rated_charge_exponent_raw, double *value)
-{
-    return fronius_datamanager_nameplate_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(rated_charge_exponent_raw), (int64_t)raw, value);
-}
-#endif
 
 /* AhrRtg_SF rated charge exponent: -10..10; r, register 40144; Special code: 8000h not_implemented */
 #define FRONIUS_DATAMANAGER_RATED_CHARGE_EXPONENT_ADDRESS 0x0016U
@@ -1369,15 +1060,6 @@ static inline int16_t fronius_datamanager_rated_charge_exponent_from_words(const
 #define fronius_datamanager_maximum_charge_rate_is_special fronius_datamanager_nameplate_u16_is_special
 #define fronius_datamanager_maximum_charge_rate_special_name fronius_datamanager_nameplate_u16_special_name
 #define fronius_datamanager_maximum_charge_rate_is_no_value fronius_datamanager_nameplate_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_maximum_charge_rate_decode(
-    uint16_t raw, int16_t maximum_charge_rate_exponent_raw, double *value)
-{
-    return fronius_datamanager_nameplate_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(maximum_charge_rate_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /* MaxChaRte_SF maximum charge rate exponent: -10..10; r, register 40146; Special code: 8000h not_implemented */
 #define FRONIUS_DATAMANAGER_MAXIMUM_CHARGE_RATE_EXPONENT_ADDRESS 0x0018U
@@ -1402,15 +1084,6 @@ static inline int16_t fronius_datamanager_maximum_charge_rate_exponent_from_word
 #define fronius_datamanager_maximum_discharge_rate_is_special fronius_datamanager_nameplate_u16_is_special
 #define fronius_datamanager_maximum_discharge_rate_special_name fronius_datamanager_nameplate_u16_special_name
 #define fronius_datamanager_maximum_discharge_rate_is_no_value fronius_datamanager_nameplate_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_maximum_discharge_rate_decode(
-    uint16_t raw, int16_t maximum_discharge_rate_exponent_raw, double *value)
-{
-    return fronius_datamanager_nameplate_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(maximum_discharge_rate_exponent_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /* MaxDisChaRte_SF maximum discharge rate exponent: -10..10; r, register 40148; Special code: 8000h not_implemented */
 #define FRONIUS_DATAMANAGER_MAXIMUM_DISCHARGE_RATE_EXPONENT_ADDRESS 0x001AU
@@ -1453,23 +1126,6 @@ static inline const char *fronius_datamanager_settings_u16_special_name(uint16_t
 
 FIELDSCRIBE_STATUS fronius_datamanager_maximum_power_check(uint16_t raw)
 { return fronius_datamanager_settings_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL : (FIELDSCRIBE_OK); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_maximum_power_encode(
-    double value, int16_t maximum_power_exponent_raw, uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        fronius_datamanager_ac_current_rule(maximum_power_exponent_raw), value, 0, 65535);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        fronius_datamanager_maximum_power_check((uint16_t)whole.number)), (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS fronius_datamanager_maximum_power_decode(
-    uint16_t raw, int16_t maximum_power_exponent_raw, double *value)
-{
-    return fronius_datamanager_settings_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(maximum_power_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /*
  * VRef reference voltage: raw 0..65534; values in V; rw, register 40153; no integer path: its counts need more than 64
@@ -1483,23 +1139,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_maximum_power_decode(
 #define fronius_datamanager_reference_voltage_is_no_value fronius_datamanager_settings_u16_is_no_value
 FIELDSCRIBE_STATUS fronius_datamanager_reference_voltage_check(uint16_t raw)
 { return fronius_datamanager_settings_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL : (FIELDSCRIBE_OK); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_reference_voltage_encode(
-    double value, int16_t reference_voltage_exponent_raw, uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        fronius_datamanager_ac_current_rule(reference_voltage_exponent_raw), value, 0, 65535);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        fronius_datamanager_reference_voltage_check((uint16_t)whole.number)), (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS fronius_datamanager_reference_voltage_decode(
-    uint16_t raw, int16_t reference_voltage_exponent_raw, double *value)
-{
-    return fronius_datamanager_settings_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(reference_voltage_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /*
  * VRefOfs reference voltage offset: raw -32767..32767; values in V; rw, register 40154; no integer path: its counts
@@ -1525,23 +1164,6 @@ static inline void fronius_datamanager_reference_voltage_offset_to_words(int16_t
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_reference_voltage_offset_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_reference_voltage_offset_encode(
-    double value, int16_t reference_voltage_offset_exponent_raw, int16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        fronius_datamanager_ac_current_rule(reference_voltage_offset_exponent_raw), value, -32768, 32767);
-    return fieldscribe_keep_s16(fieldscribe_both(whole.status,
-        fronius_datamanager_reference_voltage_offset_check((int16_t)whole.number)), (int16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS fronius_datamanager_reference_voltage_offset_decode(
-    int16_t raw, int16_t reference_voltage_offset_exponent_raw, double *value)
-{
-    return fronius_datamanager_settings_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(reference_voltage_offset_exponent_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /*
  * VMax maximum voltage: raw 0..65534; values in V; rw, register 40155; no integer path: its counts need more than 64
@@ -1556,23 +1178,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_reference_voltage_offset_decode(
 #define fronius_datamanager_maximum_voltage_is_no_value fronius_datamanager_settings_u16_is_no_value
 FIELDSCRIBE_STATUS fronius_datamanager_maximum_voltage_check(uint16_t raw)
 { return fronius_datamanager_settings_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL : (FIELDSCRIBE_OK); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_maximum_voltage_encode(
-    double value, int16_t voltage_limits_exponent_raw, uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        fronius_datamanager_ac_current_rule(voltage_limits_exponent_raw), value, 0, 65535);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        fronius_datamanager_maximum_voltage_check((uint16_t)whole.number)), (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS fronius_datamanager_maximum_voltage_decode(
-    uint16_t raw, int16_t voltage_limits_exponent_raw, double *value)
-{
-    return fronius_datamanager_settings_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(voltage_limits_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /*
  * VMin minimum voltage: raw 0..65534; values in V; rw, register 40156; no integer path: its counts need more than 64
@@ -1587,23 +1192,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_maximum_voltage_decode(
 #define fronius_datamanager_minimum_voltage_is_no_value fronius_datamanager_settings_u16_is_no_value
 FIELDSCRIBE_STATUS fronius_datamanager_minimum_voltage_check(uint16_t raw)
 { return fronius_datamanager_settings_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL : (FIELDSCRIBE_OK); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_minimum_voltage_encode(
-    double value, int16_t voltage_limits_exponent_raw, uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        fronius_datamanager_ac_current_rule(voltage_limits_exponent_raw), value, 0, 65535);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        fronius_datamanager_minimum_voltage_check((uint16_t)whole.number)), (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS fronius_datamanager_minimum_voltage_decode(
-    uint16_t raw, int16_t voltage_limits_exponent_raw, double *value)
-{
-    return fronius_datamanager_settings_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(voltage_limits_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /*
  * VAMax maximum apparent power: raw 0..65534; values in VA; rw, register 40157; no integer path: its counts need more
@@ -1617,23 +1205,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_minimum_voltage_decode(
 #define fronius_datamanager_maximum_apparent_power_is_no_value fronius_datamanager_settings_u16_is_no_value
 FIELDSCRIBE_STATUS fronius_datamanager_maximum_apparent_power_check(uint16_t raw)
 { return fronius_datamanager_settings_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL : (FIELDSCRIBE_OK); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_maximum_apparent_power_encode(
-    double value, int16_t maximum_apparent_power_exponent_raw, uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        fronius_datamanager_ac_current_rule(maximum_apparent_power_exponent_raw), value, 0, 65535);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        fronius_datamanager_maximum_apparent_power_check((uint16_t)whole.number)), (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS fronius_datamanager_maximum_apparent_power_decode(
-    uint16_t raw, int16_t maximum_apparent_power_exponent_raw, double *value)
-{
-    return fronius_datamanager_settings_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(maximum_apparent_power_exponent_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /*
  * VARMaxQ1 maximum reactive power q1: raw -32767..32767; values in var; r, register 40158; no integer path: its counts
@@ -1647,15 +1218,6 @@ static inline void fronius_datamanager_maximum_reactive_power_q1_to_words(int16_
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_maximum_reactive_power_q1_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_maximum_reactive_power_q1_decode(
-    int16_t raw, int16_t maximum_reactive_power_exponent_raw, double *value)
-{
-    return fronius_datamanager_settings_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(maximum_reactive_power_exponent_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /*
  * VARMaxQ2 maximum reactive power q2: raw -32767..32767; values in var; r, register 40159; no integer path: its counts
@@ -1669,15 +1231,6 @@ static inline void fronius_datamanager_maximum_reactive_power_q2_to_words(int16_
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_maximum_reactive_power_q2_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_maximum_reactive_power_q2_decode(
-    int16_t raw, int16_t maximum_reactive_power_exponent_raw, double *value)
-{
-    return fronius_datamanager_settings_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(maximum_reactive_power_exponent_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /*
  * VARMaxQ3 maximum reactive power q3: raw -32767..32767; values in var; r, register 40160; no integer path: its counts
@@ -1691,15 +1244,6 @@ static inline void fronius_datamanager_maximum_reactive_power_q3_to_words(int16_
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_maximum_reactive_power_q3_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_maximum_reactive_power_q3_decode(
-    int16_t raw, int16_t maximum_reactive_power_exponent_raw, double *value)
-{
-    return fronius_datamanager_settings_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(maximum_reactive_power_exponent_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /*
  * VARMaxQ4 maximum reactive power q4: raw -32767..32767; values in var; r, register 40161; no integer path: its counts
@@ -1713,15 +1257,6 @@ static inline void fronius_datamanager_maximum_reactive_power_q4_to_words(int16_
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_maximum_reactive_power_q4_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_maximum_reactive_power_q4_decode(
-    int16_t raw, int16_t maximum_reactive_power_exponent_raw, double *value)
-{
-    return fronius_datamanager_settings_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(maximum_reactive_power_exponent_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /*
  * WGra power ramp rate: raw 0..65534; values in %/min; r, register 40162; no integer path: its counts need more than 64
@@ -1732,15 +1267,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_maximum_reactive_power_q4_decode(
 #define fronius_datamanager_power_ramp_rate_is_special fronius_datamanager_settings_u16_is_special
 #define fronius_datamanager_power_ramp_rate_special_name fronius_datamanager_settings_u16_special_name
 #define fronius_datamanager_power_ramp_rate_is_no_value fronius_datamanager_settings_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_power_ramp_rate_decode(
-    uint16_t raw, int16_t power_ramp_rate_exponent_raw, double *value)
-{
-    return fronius_datamanager_settings_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(power_ramp_rate_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /*
  * PFMinQ1 minimum power factor q1: raw -32767..32767; r, register 40163; no integer path: its counts need more than 64
@@ -1754,15 +1280,6 @@ static inline void fronius_datamanager_minimum_power_factor_q1_to_words(int16_t 
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_minimum_power_factor_q1_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_minimum_power_factor_q1_decode(
-    int16_t raw, int16_t minimum_power_factor_exponent_raw, double *value)
-{
-    return fronius_datamanager_settings_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(minimum_power_factor_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /*
  * PFMinQ2 minimum power factor q2: raw -32767..32767; r, register 40164; no integer path: its counts need more than 64
@@ -1776,15 +1293,6 @@ static inline void fronius_datamanager_minimum_power_factor_q2_to_words(int16_t 
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_minimum_power_factor_q2_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_minimum_power_factor_q2_decode(
-    int16_t raw, int16_t minimum_power_factor_exponent_raw, double *value)
-{
-    return fronius_datamanager_settings_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(minimum_power_factor_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /*
  * PFMinQ3 minimum power factor q3: raw -32767..32767; r, register 40165; no integer path: its counts need more than 64
@@ -1798,15 +1306,6 @@ static inline void fronius_datamanager_minimum_power_factor_q3_to_words(int16_t 
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_minimum_power_factor_q3_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_minimum_power_factor_q3_decode(
-    int16_t raw, int16_t minimum_power_factor_exponent_raw, double *value)
-{
-    return fronius_datamanager_settings_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(minimum_power_factor_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /*
  * PFMinQ4 minimum power factor q4: raw -32767..32767; r, register 40166; no integer path: its counts need more than 64
@@ -1820,15 +1319,6 @@ static inline void fronius_datamanager_minimum_power_factor_q4_to_words(int16_t 
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_minimum_power_factor_q4_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_minimum_power_factor_q4_decode(
-    int16_t raw, int16_t minimum_power_factor_exponent_raw, double *value)
-{
-    return fronius_datamanager_settings_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(minimum_power_factor_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 enum {
     FRONIUS_DATAMANAGER_REACTIVE_POWER_ACTION_SWITCH = 1,
@@ -1888,15 +1378,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_apparent_power_method_decode(uint16_t raw
 #define fronius_datamanager_maximum_ramp_rate_is_special fronius_datamanager_settings_u16_is_special
 #define fronius_datamanager_maximum_ramp_rate_special_name fronius_datamanager_settings_u16_special_name
 #define fronius_datamanager_maximum_ramp_rate_is_no_value fronius_datamanager_settings_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_maximum_ramp_rate_decode(
-    uint16_t raw, int16_t maximum_ramp_rate_exponent_raw, double *value)
-{
-    return fronius_datamanager_settings_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(maximum_ramp_rate_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /*
  * ECPNomHz nominal frequency: raw 0..65534; values in Hz; r, register 40170; no integer path: its counts need more than
@@ -1906,15 +1387,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_maximum_ramp_rate_decode(
 #define fronius_datamanager_nominal_frequency_is_special fronius_datamanager_settings_u16_is_special
 #define fronius_datamanager_nominal_frequency_special_name fronius_datamanager_settings_u16_special_name
 #define fronius_datamanager_nominal_frequency_is_no_value fronius_datamanager_settings_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_nominal_frequency_decode(
-    uint16_t raw, int16_t nominal_frequency_exponent_raw, double *value)
-{
-    return fronius_datamanager_settings_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(nominal_frequency_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 enum {
     FRONIUS_DATAMANAGER_CONNECTED_PHASE_A = 1,
@@ -2136,9 +1608,7 @@ enum {
     FRONIUS_DATAMANAGER_GRID_CONNECTION_DISCONNECTED = 0,
     FRONIUS_DATAMANAGER_GRID_CONNECTION_CONNECTED = 1,
 };
-static const char *const fronius_datamanager_grid_connection_names[] = {
-    "disconnected", "connected"
-};
+static const char *const fronius_datamanager_grid_connection_names[] = {"disconnected", "connected"};
 static inline const char *fronius_datamanager_grid_connection_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(fronius_datamanager_grid_connection_names, raw); }
 
@@ -2227,15 +1697,6 @@ static inline void fronius_datamanager_available_reactive_power_to_words(int16_t
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_available_reactive_power_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_available_reactive_power_decode(
-    int16_t raw, int16_t available_reactive_power_exponent_raw, double *value)
-{
-    return fronius_datamanager_status_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(available_reactive_power_exponent_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /* VArAval_SF available reactive power exponent: -10..10; r, register 40212; Special code: 8000h not_implemented */
 #define FRONIUS_DATAMANAGER_AVAILABLE_REACTIVE_POWER_EXPONENT_ADDRESS 0x001EU
@@ -2260,15 +1721,6 @@ static inline int16_t fronius_datamanager_available_reactive_power_exponent_from
 #define fronius_datamanager_available_power_is_special fronius_datamanager_status_u16_is_special
 #define fronius_datamanager_available_power_special_name fronius_datamanager_status_u16_special_name
 #define fronius_datamanager_available_power_is_no_value fronius_datamanager_status_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_available_power_decode(
-    uint16_t raw, int16_t available_power_exponent_raw, double *value)
-{
-    return fronius_datamanager_status_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(available_power_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /* WAval_SF available power exponent: -10..10; r, register 40214; Special code: 8000h not_implemented */
 #define FRONIUS_DATAMANAGER_AVAILABLE_POWER_EXPONENT_ADDRESS 0x0020U
@@ -2377,15 +1829,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_ride_through_status_decode(uint16_t raw, 
 #define fronius_datamanager_isolation_resistance_is_special fronius_datamanager_status_u16_is_special
 #define fronius_datamanager_isolation_resistance_special_name fronius_datamanager_status_u16_special_name
 #define fronius_datamanager_isolation_resistance_is_no_value fronius_datamanager_status_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_isolation_resistance_decode(
-    uint16_t raw, int16_t isolation_resistance_exponent_raw, double *value)
-{
-    return fronius_datamanager_status_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(isolation_resistance_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /* Ris_SF isolation resistance exponent: -10..10; r, register 40227; Special code: 8000h not_implemented */
 #define FRONIUS_DATAMANAGER_ISOLATION_RESISTANCE_EXPONENT_ADDRESS 0x002DU
@@ -2458,9 +1901,7 @@ enum {
     FRONIUS_DATAMANAGER_CONNECTION_DISCONNECTED = 0,
     FRONIUS_DATAMANAGER_CONNECTION_CONNECTED = 1,
 };
-static const char *const fronius_datamanager_connection_names[] = {
-    "disconnected", "connected"
-};
+static const char *const fronius_datamanager_connection_names[] = {"disconnected", "connected"};
 static inline const char *fronius_datamanager_connection_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(fronius_datamanager_connection_names, raw); }
 
@@ -2500,20 +1941,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_connection_decode(uint16_t raw, int32_t *
 #define fronius_datamanager_power_limit_is_no_value fronius_datamanager_controls_u16_is_no_value
 FIELDSCRIBE_STATUS fronius_datamanager_power_limit_check(uint16_t raw)
 { return fronius_datamanager_controls_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL : (FIELDSCRIBE_OK); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_power_limit_encode(double value, int16_t power_limit_exponent_raw, uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        fronius_datamanager_ac_current_rule(power_limit_exponent_raw), value, 0, 65535);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        fronius_datamanager_power_limit_check((uint16_t)whole.number)), (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS fronius_datamanager_power_limit_decode(uint16_t raw, int16_t power_limit_exponent_raw, double *value)
-{
-    return fronius_datamanager_controls_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(power_limit_exponent_raw), (int64_t)raw, value);
-}
-#endif
 
 /* WMaxLimPct_WinTms power limit window: 0..300 s; rw, register 40234; Special code: FFFFh not_implemented */
 #define FRONIUS_DATAMANAGER_POWER_LIMIT_WINDOW_ADDRESS 0x0006U
@@ -2585,9 +2012,7 @@ enum {
     FRONIUS_DATAMANAGER_POWER_LIMIT_ENABLED_DISABLED = 0,
     FRONIUS_DATAMANAGER_POWER_LIMIT_ENABLED_ENABLED = 1,
 };
-static const char *const fronius_datamanager_power_limit_enabled_names[] = {
-    "disabled", "enabled"
-};
+static const char *const fronius_datamanager_power_limit_enabled_names[] = {"disabled", "enabled"};
 static inline const char *fronius_datamanager_power_limit_enabled_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(fronius_datamanager_power_limit_enabled_names, raw); }
 
@@ -2639,23 +2064,6 @@ static inline void fronius_datamanager_power_factor_setpoint_to_words(int16_t ra
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_power_factor_setpoint_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_power_factor_setpoint_encode(
-    double value, int16_t power_factor_setpoint_exponent_raw, int16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        fronius_datamanager_ac_current_rule(power_factor_setpoint_exponent_raw), value, -32768, 32767);
-    return fieldscribe_keep_s16(fieldscribe_both(whole.status,
-        fronius_datamanager_power_factor_setpoint_check((int16_t)whole.number)), (int16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS fronius_datamanager_power_factor_setpoint_decode(
-    int16_t raw, int16_t power_factor_setpoint_exponent_raw, double *value)
-{
-    return fronius_datamanager_controls_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(power_factor_setpoint_exponent_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /* OutPFSet_WinTms power factor window: 0..300 s; rw, register 40239; Special code: FFFFh not_implemented */
 #define FRONIUS_DATAMANAGER_POWER_FACTOR_WINDOW_ADDRESS 0x000BU
@@ -2727,9 +2135,7 @@ enum {
     FRONIUS_DATAMANAGER_POWER_FACTOR_ENABLED_DISABLED = 0,
     FRONIUS_DATAMANAGER_POWER_FACTOR_ENABLED_ENABLED = 1,
 };
-static const char *const fronius_datamanager_power_factor_enabled_names[] = {
-    "disabled", "enabled"
-};
+static const char *const fronius_datamanager_power_factor_enabled_names[] = {"disabled", "enabled"};
 static inline const char *fronius_datamanager_power_factor_enabled_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(fronius_datamanager_power_factor_enabled_names, raw); }
 
@@ -2769,15 +2175,6 @@ static inline void fronius_datamanager_reactive_power_of_maximum_power_to_words(
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_reactive_power_of_maximum_power_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_reactive_power_of_maximum_power_decode(
-    int16_t raw, int16_t reactive_power_percent_exponent_raw, double *value)
-{
-    return fronius_datamanager_controls_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(reactive_power_percent_exponent_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /*
  * VArMaxPct reactive power of maximum: raw -32767..32767; values in %; rw, register 40244; no integer path: its counts
@@ -2795,23 +2192,6 @@ static inline void fronius_datamanager_reactive_power_of_maximum_to_words(int16_
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_reactive_power_of_maximum_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_reactive_power_of_maximum_encode(
-    double value, int16_t reactive_power_percent_exponent_raw, int16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        fronius_datamanager_ac_current_rule(reactive_power_percent_exponent_raw), value, -32768, 32767);
-    return fieldscribe_keep_s16(fieldscribe_both(whole.status,
-        fronius_datamanager_reactive_power_of_maximum_check((int16_t)whole.number)), (int16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS fronius_datamanager_reactive_power_of_maximum_decode(
-    int16_t raw, int16_t reactive_power_percent_exponent_raw, double *value)
-{
-    return fronius_datamanager_controls_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(reactive_power_percent_exponent_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /*
  * VArAvalPct reactive power of available: raw -32767..32767; values in %; r, register 40245; no integer path: its
@@ -2825,15 +2205,6 @@ static inline void fronius_datamanager_reactive_power_of_available_to_words(int1
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_reactive_power_of_available_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_reactive_power_of_available_decode(
-    int16_t raw, int16_t reactive_power_percent_exponent_raw, double *value)
-{
-    return fronius_datamanager_controls_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(reactive_power_percent_exponent_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /* VArPct_WinTms reactive power window: 0..300 s; rw, register 40246; Special code: FFFFh not_implemented */
 #define FRONIUS_DATAMANAGER_REACTIVE_POWER_WINDOW_ADDRESS 0x0012U
@@ -2928,9 +2299,7 @@ enum {
     FRONIUS_DATAMANAGER_REACTIVE_POWER_ENABLED_DISABLED = 0,
     FRONIUS_DATAMANAGER_REACTIVE_POWER_ENABLED_ENABLED = 1,
 };
-static const char *const fronius_datamanager_reactive_power_enabled_names[] = {
-    "disabled", "enabled"
-};
+static const char *const fronius_datamanager_reactive_power_enabled_names[] = {"disabled", "enabled"};
 static inline const char *fronius_datamanager_reactive_power_enabled_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(fronius_datamanager_reactive_power_enabled_names, raw); }
 
@@ -3192,15 +2561,6 @@ static inline size_t fronius_datamanager_module_name_index_2_decode(const uint16
 #define fronius_datamanager_module_current_index_1_is_special fronius_datamanager_mppt_u16_is_special
 #define fronius_datamanager_module_current_index_1_special_name fronius_datamanager_mppt_u16_special_name
 #define fronius_datamanager_module_current_index_1_is_no_value fronius_datamanager_mppt_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_module_current_index_1_decode(
-    uint16_t raw, int16_t module_current_exponent_raw, double *value)
-{
-    return fronius_datamanager_mppt_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(module_current_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /*
  * module current index 2: raw 0..65534; values in A; r, register 40293; no integer path: its counts need more than 64
@@ -3211,15 +2571,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_module_current_index_1_decode(
 #define fronius_datamanager_module_current_index_2_is_special fronius_datamanager_mppt_u16_is_special
 #define fronius_datamanager_module_current_index_2_special_name fronius_datamanager_mppt_u16_special_name
 #define fronius_datamanager_module_current_index_2_is_no_value fronius_datamanager_mppt_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_module_current_index_2_decode(
-    uint16_t raw, int16_t module_current_exponent_raw, double *value)
-{
-    return fronius_datamanager_mppt_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(module_current_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /*
  * module voltage index 1: raw 0..65534; values in V; r, register 40274; no integer path: its counts need more than 64
@@ -3230,15 +2581,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_module_current_index_2_decode(
 #define fronius_datamanager_module_voltage_index_1_is_special fronius_datamanager_mppt_u16_is_special
 #define fronius_datamanager_module_voltage_index_1_special_name fronius_datamanager_mppt_u16_special_name
 #define fronius_datamanager_module_voltage_index_1_is_no_value fronius_datamanager_mppt_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_module_voltage_index_1_decode(
-    uint16_t raw, int16_t module_voltage_exponent_raw, double *value)
-{
-    return fronius_datamanager_mppt_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(module_voltage_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /*
  * module voltage index 2: raw 0..65534; values in V; r, register 40294; no integer path: its counts need more than 64
@@ -3249,15 +2591,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_module_voltage_index_1_decode(
 #define fronius_datamanager_module_voltage_index_2_is_special fronius_datamanager_mppt_u16_is_special
 #define fronius_datamanager_module_voltage_index_2_special_name fronius_datamanager_mppt_u16_special_name
 #define fronius_datamanager_module_voltage_index_2_is_no_value fronius_datamanager_mppt_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_module_voltage_index_2_decode(
-    uint16_t raw, int16_t module_voltage_exponent_raw, double *value)
-{
-    return fronius_datamanager_mppt_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(module_voltage_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /*
  * module power index 1: raw 0..65534; values in W; r, register 40275; no integer path: its counts need more than 64
@@ -3268,14 +2601,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_module_voltage_index_2_decode(
 #define fronius_datamanager_module_power_index_1_is_special fronius_datamanager_mppt_u16_is_special
 #define fronius_datamanager_module_power_index_1_special_name fronius_datamanager_mppt_u16_special_name
 #define fronius_datamanager_module_power_index_1_is_no_value fronius_datamanager_mppt_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_module_power_index_1_decode(
-    uint16_t raw, int16_t module_power_exponent_raw, double *value)
-{
-    return fronius_datamanager_mppt_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(module_power_exponent_raw), (int64_t)raw, value);
-}
-#endif
 
 /*
  * module power index 2: raw 0..65534; values in W; r, register 40295; no integer path: its counts need more than 64
@@ -3286,14 +2611,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_module_power_index_1_decode(
 #define fronius_datamanager_module_power_index_2_is_special fronius_datamanager_mppt_u16_is_special
 #define fronius_datamanager_module_power_index_2_special_name fronius_datamanager_mppt_u16_special_name
 #define fronius_datamanager_module_power_index_2_is_no_value fronius_datamanager_mppt_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_module_power_index_2_decode(
-    uint16_t raw, int16_t module_power_exponent_raw, double *value)
-{
-    return fronius_datamanager_mppt_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(module_power_exponent_raw), (int64_t)raw, value);
-}
-#endif
 
 /*
  * module energy index 1: raw 0..4294967295; values in Wh; r, register 40276; no integer path: its counts need more than
@@ -3306,11 +2623,6 @@ static inline void fronius_datamanager_module_energy_index_1_to_words(uint32_t r
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t fronius_datamanager_module_energy_index_1_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_module_energy_index_1_decode(
-    uint32_t raw, int16_t module_energy_exponent_raw, double *value)
-{ return fieldscribe_decode_wide(fronius_datamanager_ac_current_rule(module_energy_exponent_raw), false, raw, value); }
-#endif
 
 /*
  * module energy index 2: raw 0..4294967295; values in Wh; r, register 40296; no integer path: its counts need more than
@@ -3323,11 +2635,6 @@ static inline void fronius_datamanager_module_energy_index_2_to_words(uint32_t r
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t fronius_datamanager_module_energy_index_2_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_module_energy_index_2_decode(
-    uint32_t raw, int16_t module_energy_exponent_raw, double *value)
-{ return fieldscribe_decode_wide(fronius_datamanager_ac_current_rule(module_energy_exponent_raw), false, raw, value); }
-#endif
 
 /* module timestamp index 1: 0..4294967294 s; r, register 40278; Special code: FFFFFFFFh not_implemented */
 #define FRONIUS_DATAMANAGER_MODULE_TIMESTAMP_INDEX_1_ADDRESS 0x0018U
@@ -3477,15 +2784,6 @@ static inline bool fronius_datamanager_storage_u16_is_no_value(uint16_t raw) { r
 static inline const char *fronius_datamanager_storage_u16_special_name(uint16_t raw)
 { return (raw == 65535U) ? "not_implemented" : NULL; }
 
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_maximum_charge_power_decode(
-    uint16_t raw, int16_t maximum_charge_power_exponent_raw, double *value)
-{
-    return fronius_datamanager_storage_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(maximum_charge_power_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /*
  * WchaGra charge ramp rate: raw 0..65534; values in %/s; r, register 40307; no integer path: its counts need more than
@@ -3495,15 +2793,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_maximum_charge_power_decode(
 #define fronius_datamanager_charge_ramp_rate_is_special fronius_datamanager_storage_u16_is_special
 #define fronius_datamanager_charge_ramp_rate_special_name fronius_datamanager_storage_u16_special_name
 #define fronius_datamanager_charge_ramp_rate_is_no_value fronius_datamanager_storage_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_charge_ramp_rate_decode(
-    uint16_t raw, int16_t charge_ramp_rate_exponent_raw, double *value)
-{
-    return fronius_datamanager_storage_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(charge_ramp_rate_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /*
  * WdisChaGra discharge ramp rate: raw 0..65534; values in %/s; r, register 40308; no integer path: its counts need more
@@ -3513,15 +2802,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_charge_ramp_rate_decode(
 #define fronius_datamanager_discharge_ramp_rate_is_special fronius_datamanager_storage_u16_is_special
 #define fronius_datamanager_discharge_ramp_rate_special_name fronius_datamanager_storage_u16_special_name
 #define fronius_datamanager_discharge_ramp_rate_is_no_value fronius_datamanager_storage_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_discharge_ramp_rate_decode(
-    uint16_t raw, int16_t charge_ramp_rate_exponent_raw, double *value)
-{
-    return fronius_datamanager_storage_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(charge_ramp_rate_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /* StorCtl_Mod storage control mode: 0..3; rw, register 40309; Special code: FFFFh not_implemented */
 #define FRONIUS_DATAMANAGER_STORAGE_CONTROL_MODE_ADDRESS 0x0005U
@@ -3554,15 +2834,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_storage_control_mode_decode(uint16_t raw,
 #define fronius_datamanager_maximum_charge_apparent_power_is_special fronius_datamanager_storage_u16_is_special
 #define fronius_datamanager_maximum_charge_apparent_power_special_name fronius_datamanager_storage_u16_special_name
 #define fronius_datamanager_maximum_charge_apparent_power_is_no_value fronius_datamanager_storage_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_maximum_charge_apparent_power_decode(
-    uint16_t raw, int16_t maximum_charge_apparent_power_exponent_raw, double *value)
-{
-    return fronius_datamanager_storage_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(maximum_charge_apparent_power_exponent_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /*
  * MinRsvPct minimum reserve: raw 0..65534; values in %; rw, register 40311; no integer path: its counts need more than
@@ -3576,23 +2847,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_maximum_charge_apparent_power_decode(
 #define fronius_datamanager_minimum_reserve_is_no_value fronius_datamanager_storage_u16_is_no_value
 FIELDSCRIBE_STATUS fronius_datamanager_minimum_reserve_check(uint16_t raw)
 { return fronius_datamanager_storage_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL : (FIELDSCRIBE_OK); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_minimum_reserve_encode(
-    double value, int16_t minimum_reserve_exponent_raw, uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        fronius_datamanager_ac_current_rule(minimum_reserve_exponent_raw), value, 0, 65535);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        fronius_datamanager_minimum_reserve_check((uint16_t)whole.number)), (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS fronius_datamanager_minimum_reserve_decode(
-    uint16_t raw, int16_t minimum_reserve_exponent_raw, double *value)
-{
-    return fronius_datamanager_storage_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(minimum_reserve_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /*
  * ChaState state of charge: raw 0..65534; values in %; r, register 40312; no integer path: its counts need more than 64
@@ -3602,15 +2856,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_minimum_reserve_decode(
 #define fronius_datamanager_state_of_charge_is_special fronius_datamanager_storage_u16_is_special
 #define fronius_datamanager_state_of_charge_special_name fronius_datamanager_storage_u16_special_name
 #define fronius_datamanager_state_of_charge_is_no_value fronius_datamanager_storage_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_state_of_charge_decode(
-    uint16_t raw, int16_t state_of_charge_exponent_raw, double *value)
-{
-    return fronius_datamanager_storage_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(state_of_charge_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /*
  * StorAval available charge: raw 0..65534; values in Ah; r, register 40313; no integer path: its counts need more than
@@ -3620,15 +2865,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_state_of_charge_decode(
 #define fronius_datamanager_available_charge_is_special fronius_datamanager_storage_u16_is_special
 #define fronius_datamanager_available_charge_special_name fronius_datamanager_storage_u16_special_name
 #define fronius_datamanager_available_charge_is_no_value fronius_datamanager_storage_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_available_charge_decode(
-    uint16_t raw, int16_t available_charge_exponent_raw, double *value)
-{
-    return fronius_datamanager_storage_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(available_charge_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /*
  * InBatV battery voltage: raw 0..65534; values in V; r, register 40314; no integer path: its counts need more than 64
@@ -3638,15 +2874,6 @@ FIELDSCRIBE_STATUS fronius_datamanager_available_charge_decode(
 #define fronius_datamanager_battery_voltage_is_special fronius_datamanager_storage_u16_is_special
 #define fronius_datamanager_battery_voltage_special_name fronius_datamanager_storage_u16_special_name
 #define fronius_datamanager_battery_voltage_is_no_value fronius_datamanager_storage_u16_is_no_value
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_battery_voltage_decode(
-    uint16_t raw, int16_t battery_voltage_exponent_raw, double *value)
-{
-    return fronius_datamanager_storage_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(battery_voltage_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 enum {
     FRONIUS_DATAMANAGER_CHARGE_STATE_OFF = 1,
@@ -3704,23 +2931,6 @@ static inline void fronius_datamanager_discharge_limit_to_words(int16_t raw, uin
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_discharge_limit_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_discharge_limit_encode(
-    double value, int16_t storage_limits_exponent_raw, int16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        fronius_datamanager_ac_current_rule(storage_limits_exponent_raw), value, -32768, 32767);
-    return fieldscribe_keep_s16(fieldscribe_both(whole.status,
-        fronius_datamanager_discharge_limit_check((int16_t)whole.number)), (int16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS fronius_datamanager_discharge_limit_decode(
-    int16_t raw, int16_t storage_limits_exponent_raw, double *value)
-{
-    return fronius_datamanager_storage_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(storage_limits_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /*
  * InWRte charge limit: raw -32767..32767; values in %; rw, register 40317; no integer path: its counts need more than
@@ -3738,23 +2948,6 @@ static inline void fronius_datamanager_charge_limit_to_words(int16_t raw, uint16
 { words[0] = (uint16_t)raw; }
 static inline int16_t fronius_datamanager_charge_limit_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS fronius_datamanager_charge_limit_encode(
-    double value, int16_t storage_limits_exponent_raw, int16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        fronius_datamanager_ac_current_rule(storage_limits_exponent_raw), value, -32768, 32767);
-    return fieldscribe_keep_s16(fieldscribe_both(whole.status,
-        fronius_datamanager_charge_limit_check((int16_t)whole.number)), (int16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS fronius_datamanager_charge_limit_decode(
-    int16_t raw, int16_t storage_limits_exponent_raw, double *value)
-{
-    return fronius_datamanager_storage_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(storage_limits_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /* InOutWRte_WinTms storage window: 0..65534 s; r, register 40318; Special code: FFFFh not_implemented */
 #define FRONIUS_DATAMANAGER_STORAGE_WINDOW_ADDRESS 0x000EU
@@ -3793,9 +2986,7 @@ enum {
     FRONIUS_DATAMANAGER_GRID_CHARGING_PV = 0,
     FRONIUS_DATAMANAGER_GRID_CHARGING_GRID = 1,
 };
-static const char *const fronius_datamanager_grid_charging_names[] = {
-    "pv", "grid"
-};
+static const char *const fronius_datamanager_grid_charging_names[] = {"pv", "grid"};
 static inline const char *fronius_datamanager_grid_charging_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(fronius_datamanager_grid_charging_names, raw); }
 
@@ -4047,9 +3238,7 @@ enum {
     FRONIUS_DATAMANAGER_STORAGE_RESTRICTIONS_VIEW_MODE_LOCAL = 0,
     FRONIUS_DATAMANAGER_STORAGE_RESTRICTIONS_VIEW_MODE_GLOBAL = 1,
 };
-static const char *const fronius_datamanager_storage_restrictions_view_mode_names[] = {
-    "local", "global"
-};
+static const char *const fronius_datamanager_storage_restrictions_view_mode_names[] = {"local", "global"};
 static inline const char *fronius_datamanager_storage_restrictions_view_mode_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(fronius_datamanager_storage_restrictions_view_mode_names, raw); }
 
@@ -4098,5 +3287,629 @@ static inline void fronius_datamanager_site_energy_total_to_words(uint64_t raw, 
 { fieldscribe_split64((uint64_t)raw, &words[0], &words[1], &words[2], &words[3]); }
 static inline uint64_t fronius_datamanager_site_energy_total_from_words(const uint16_t words[4])
 { return fieldscribe_join64(words[0], words[1], words[2], words[3]); }
+
+/* ---- Values in floating point ---- */
+
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS fronius_datamanager_ac_current_decode(uint16_t raw, int16_t ac_current_exponent_raw, double *value)
+{
+    return fronius_datamanager_inverter_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(ac_current_exponent_raw), (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_phase_a_current_decode(
+    uint16_t raw, int16_t ac_current_exponent_raw, double *value)
+{
+    return fronius_datamanager_inverter_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(ac_current_exponent_raw), (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_phase_b_current_decode(
+    uint16_t raw, int16_t ac_current_exponent_raw, double *value)
+{
+    return fronius_datamanager_inverter_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(ac_current_exponent_raw), (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_phase_c_current_decode(
+    uint16_t raw, int16_t ac_current_exponent_raw, double *value)
+{
+    return fronius_datamanager_inverter_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(ac_current_exponent_raw), (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_phase_a_to_b_voltage_decode(
+    uint16_t raw, int16_t ac_voltage_exponent_raw, double *value)
+{
+    return fronius_datamanager_inverter_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(ac_voltage_exponent_raw), (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_phase_b_to_c_voltage_decode(
+    uint16_t raw, int16_t ac_voltage_exponent_raw, double *value)
+{
+    return fronius_datamanager_inverter_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(ac_voltage_exponent_raw), (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_phase_c_to_a_voltage_decode(
+    uint16_t raw, int16_t ac_voltage_exponent_raw, double *value)
+{
+    return fronius_datamanager_inverter_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(ac_voltage_exponent_raw), (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_phase_a_voltage_decode(
+    uint16_t raw, int16_t ac_voltage_exponent_raw, double *value)
+{
+    return fronius_datamanager_inverter_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(ac_voltage_exponent_raw), (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_phase_b_voltage_decode(
+    uint16_t raw, int16_t ac_voltage_exponent_raw, double *value)
+{
+    return fronius_datamanager_inverter_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(ac_voltage_exponent_raw), (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_phase_c_voltage_decode(
+    uint16_t raw, int16_t ac_voltage_exponent_raw, double *value)
+{
+    return fronius_datamanager_inverter_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(ac_voltage_exponent_raw), (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_ac_power_decode(int16_t raw, int16_t ac_power_exponent_raw, double *value)
+{
+    return fronius_datamanager_inverter_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(ac_power_exponent_raw), (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_frequency_decode(uint16_t raw, int16_t frequency_exponent_raw, double *value)
+{
+    return fronius_datamanager_inverter_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(frequency_exponent_raw), (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_apparent_power_decode(
+    int16_t raw, int16_t apparent_power_exponent_raw, double *value)
+{
+    return fronius_datamanager_inverter_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(apparent_power_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_reactive_power_decode(
+    int16_t raw, int16_t reactive_power_exponent_raw, double *value)
+{
+    return fronius_datamanager_inverter_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(reactive_power_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_power_factor_decode(
+    int16_t raw, int16_t power_factor_exponent_raw, double *value)
+{
+    return fronius_datamanager_inverter_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(power_factor_exponent_raw), (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_lifetime_energy_decode(
+    uint32_t raw, int16_t lifetime_energy_exponent_raw, double *value)
+{
+    return fronius_datamanager_inverter_u32_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_wide(fronius_datamanager_ac_current_rule(lifetime_energy_exponent_raw), false, raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_dc_current_decode(uint16_t raw, int16_t dc_current_exponent_raw, double *value)
+{
+    return fronius_datamanager_inverter_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(dc_current_exponent_raw), (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_dc_voltage_decode(uint16_t raw, int16_t dc_voltage_exponent_raw, double *value)
+{
+    return fronius_datamanager_inverter_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(dc_voltage_exponent_raw), (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_dc_power_decode(int16_t raw, int16_t dc_power_exponent_raw, double *value)
+{
+    return fronius_datamanager_inverter_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(dc_power_exponent_raw), (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_cabinet_temperature_decode(
+    int16_t raw, int16_t temperature_exponent_raw, double *value)
+{
+    return fronius_datamanager_inverter_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(temperature_exponent_raw), (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_heat_sink_temperature_decode(
+    int16_t raw, int16_t temperature_exponent_raw, double *value)
+{
+    return fronius_datamanager_inverter_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(temperature_exponent_raw), (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_transformer_temperature_decode(
+    int16_t raw, int16_t temperature_exponent_raw, double *value)
+{
+    return fronius_datamanager_inverter_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(temperature_exponent_raw), (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_other_temperature_decode(
+    int16_t raw, int16_t temperature_exponent_raw, double *value)
+{
+    return fronius_datamanager_inverter_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(temperature_exponent_raw), (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_rated_power_decode(uint16_t raw, int16_t rated_power_exponent_raw, double *value)
+{
+    return fronius_datamanager_nameplate_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(rated_power_exponent_raw), (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_rated_apparent_power_decode(
+    uint16_t raw, int16_t rated_apparent_power_exponent_raw, double *value)
+{
+    return fronius_datamanager_nameplate_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(rated_apparent_power_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_rated_reactive_power_q1_decode(
+    int16_t raw, int16_t rated_reactive_power_exponent_raw, double *value)
+{
+    return fronius_datamanager_nameplate_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(rated_reactive_power_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_rated_reactive_power_q2_decode(
+    int16_t raw, int16_t rated_reactive_power_exponent_raw, double *value)
+{
+    return fronius_datamanager_nameplate_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(rated_reactive_power_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_rated_reactive_power_q3_decode(
+    int16_t raw, int16_t rated_reactive_power_exponent_raw, double *value)
+{
+    return fronius_datamanager_nameplate_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(rated_reactive_power_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_rated_reactive_power_q4_decode(
+    int16_t raw, int16_t rated_reactive_power_exponent_raw, double *value)
+{
+    return fronius_datamanager_nameplate_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(rated_reactive_power_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_rated_current_decode(
+    uint16_t raw, int16_t rated_current_exponent_raw, double *value)
+{
+    return fronius_datamanager_nameplate_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(rated_current_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_rated_power_factor_q1_decode(
+    int16_t raw, int16_t rated_power_factor_exponent_raw, double *value)
+{
+    return fronius_datamanager_nameplate_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(rated_power_factor_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_rated_power_factor_q2_decode(
+    int16_t raw, int16_t rated_power_factor_exponent_raw, double *value)
+{
+    return fronius_datamanager_nameplate_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(rated_power_factor_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_rated_power_factor_q3_decode(
+    int16_t raw, int16_t rated_power_factor_exponent_raw, double *value)
+{
+    return fronius_datamanager_nameplate_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(rated_power_factor_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_rated_power_factor_q4_decode(
+    int16_t raw, int16_t rated_power_factor_exponent_raw, double *value)
+{
+    return fronius_datamanager_nameplate_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(rated_power_factor_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_rated_energy_decode(
+    uint16_t raw, int16_t rated_energy_exponent_raw, double *value)
+{
+    return fronius_datamanager_nameplate_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(rated_energy_exponent_raw), (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_rated_charge_decode(
+    uint16_t raw, int16_t rated_charge_exponent_raw, double *value)
+{
+    return fronius_datamanager_nameplate_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(rated_charge_exponent_raw), (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_maximum_charge_rate_decode(
+    uint16_t raw, int16_t maximum_charge_rate_exponent_raw, double *value)
+{
+    return fronius_datamanager_nameplate_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(maximum_charge_rate_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_maximum_discharge_rate_decode(
+    uint16_t raw, int16_t maximum_discharge_rate_exponent_raw, double *value)
+{
+    return fronius_datamanager_nameplate_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(maximum_discharge_rate_exponent_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_maximum_power_encode(
+    double value, int16_t maximum_power_exponent_raw, uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        fronius_datamanager_ac_current_rule(maximum_power_exponent_raw), value, 0, 65535);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        fronius_datamanager_maximum_power_check((uint16_t)whole.number)), (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_maximum_power_decode(
+    uint16_t raw, int16_t maximum_power_exponent_raw, double *value)
+{
+    return fronius_datamanager_settings_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(maximum_power_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_reference_voltage_encode(
+    double value, int16_t reference_voltage_exponent_raw, uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        fronius_datamanager_ac_current_rule(reference_voltage_exponent_raw), value, 0, 65535);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        fronius_datamanager_reference_voltage_check((uint16_t)whole.number)), (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_reference_voltage_decode(
+    uint16_t raw, int16_t reference_voltage_exponent_raw, double *value)
+{
+    return fronius_datamanager_settings_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(reference_voltage_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_reference_voltage_offset_encode(
+    double value, int16_t reference_voltage_offset_exponent_raw, int16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        fronius_datamanager_ac_current_rule(reference_voltage_offset_exponent_raw), value, -32768, 32767);
+    return fieldscribe_keep_s16(fieldscribe_both(whole.status,
+        fronius_datamanager_reference_voltage_offset_check((int16_t)whole.number)), (int16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_reference_voltage_offset_decode(
+    int16_t raw, int16_t reference_voltage_offset_exponent_raw, double *value)
+{
+    return fronius_datamanager_settings_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(reference_voltage_offset_exponent_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_maximum_voltage_encode(
+    double value, int16_t voltage_limits_exponent_raw, uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        fronius_datamanager_ac_current_rule(voltage_limits_exponent_raw), value, 0, 65535);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        fronius_datamanager_maximum_voltage_check((uint16_t)whole.number)), (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_maximum_voltage_decode(
+    uint16_t raw, int16_t voltage_limits_exponent_raw, double *value)
+{
+    return fronius_datamanager_settings_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(voltage_limits_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_minimum_voltage_encode(
+    double value, int16_t voltage_limits_exponent_raw, uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        fronius_datamanager_ac_current_rule(voltage_limits_exponent_raw), value, 0, 65535);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        fronius_datamanager_minimum_voltage_check((uint16_t)whole.number)), (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_minimum_voltage_decode(
+    uint16_t raw, int16_t voltage_limits_exponent_raw, double *value)
+{
+    return fronius_datamanager_settings_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(voltage_limits_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_maximum_apparent_power_encode(
+    double value, int16_t maximum_apparent_power_exponent_raw, uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        fronius_datamanager_ac_current_rule(maximum_apparent_power_exponent_raw), value, 0, 65535);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        fronius_datamanager_maximum_apparent_power_check((uint16_t)whole.number)), (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_maximum_apparent_power_decode(
+    uint16_t raw, int16_t maximum_apparent_power_exponent_raw, double *value)
+{
+    return fronius_datamanager_settings_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(maximum_apparent_power_exponent_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_maximum_reactive_power_q1_decode(
+    int16_t raw, int16_t maximum_reactive_power_exponent_raw, double *value)
+{
+    return fronius_datamanager_settings_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(maximum_reactive_power_exponent_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_maximum_reactive_power_q2_decode(
+    int16_t raw, int16_t maximum_reactive_power_exponent_raw, double *value)
+{
+    return fronius_datamanager_settings_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(maximum_reactive_power_exponent_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_maximum_reactive_power_q3_decode(
+    int16_t raw, int16_t maximum_reactive_power_exponent_raw, double *value)
+{
+    return fronius_datamanager_settings_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(maximum_reactive_power_exponent_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_maximum_reactive_power_q4_decode(
+    int16_t raw, int16_t maximum_reactive_power_exponent_raw, double *value)
+{
+    return fronius_datamanager_settings_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(maximum_reactive_power_exponent_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_power_ramp_rate_decode(
+    uint16_t raw, int16_t power_ramp_rate_exponent_raw, double *value)
+{
+    return fronius_datamanager_settings_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(power_ramp_rate_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_minimum_power_factor_q1_decode(
+    int16_t raw, int16_t minimum_power_factor_exponent_raw, double *value)
+{
+    return fronius_datamanager_settings_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(minimum_power_factor_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_minimum_power_factor_q2_decode(
+    int16_t raw, int16_t minimum_power_factor_exponent_raw, double *value)
+{
+    return fronius_datamanager_settings_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(minimum_power_factor_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_minimum_power_factor_q3_decode(
+    int16_t raw, int16_t minimum_power_factor_exponent_raw, double *value)
+{
+    return fronius_datamanager_settings_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(minimum_power_factor_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_minimum_power_factor_q4_decode(
+    int16_t raw, int16_t minimum_power_factor_exponent_raw, double *value)
+{
+    return fronius_datamanager_settings_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(minimum_power_factor_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_maximum_ramp_rate_decode(
+    uint16_t raw, int16_t maximum_ramp_rate_exponent_raw, double *value)
+{
+    return fronius_datamanager_settings_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(maximum_ramp_rate_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_nominal_frequency_decode(
+    uint16_t raw, int16_t nominal_frequency_exponent_raw, double *value)
+{
+    return fronius_datamanager_settings_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(nominal_frequency_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_available_reactive_power_decode(
+    int16_t raw, int16_t available_reactive_power_exponent_raw, double *value)
+{
+    return fronius_datamanager_status_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(available_reactive_power_exponent_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_available_power_decode(
+    uint16_t raw, int16_t available_power_exponent_raw, double *value)
+{
+    return fronius_datamanager_status_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(available_power_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_isolation_resistance_decode(
+    uint16_t raw, int16_t isolation_resistance_exponent_raw, double *value)
+{
+    return fronius_datamanager_status_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(isolation_resistance_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_power_limit_encode(double value, int16_t power_limit_exponent_raw, uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        fronius_datamanager_ac_current_rule(power_limit_exponent_raw), value, 0, 65535);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        fronius_datamanager_power_limit_check((uint16_t)whole.number)), (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_power_limit_decode(uint16_t raw, int16_t power_limit_exponent_raw, double *value)
+{
+    return fronius_datamanager_controls_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(power_limit_exponent_raw), (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_power_factor_setpoint_encode(
+    double value, int16_t power_factor_setpoint_exponent_raw, int16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        fronius_datamanager_ac_current_rule(power_factor_setpoint_exponent_raw), value, -32768, 32767);
+    return fieldscribe_keep_s16(fieldscribe_both(whole.status,
+        fronius_datamanager_power_factor_setpoint_check((int16_t)whole.number)), (int16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_power_factor_setpoint_decode(
+    int16_t raw, int16_t power_factor_setpoint_exponent_raw, double *value)
+{
+    return fronius_datamanager_controls_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(power_factor_setpoint_exponent_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_reactive_power_of_maximum_power_decode(
+    int16_t raw, int16_t reactive_power_percent_exponent_raw, double *value)
+{
+    return fronius_datamanager_controls_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(reactive_power_percent_exponent_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_reactive_power_of_maximum_encode(
+    double value, int16_t reactive_power_percent_exponent_raw, int16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        fronius_datamanager_ac_current_rule(reactive_power_percent_exponent_raw), value, -32768, 32767);
+    return fieldscribe_keep_s16(fieldscribe_both(whole.status,
+        fronius_datamanager_reactive_power_of_maximum_check((int16_t)whole.number)), (int16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_reactive_power_of_maximum_decode(
+    int16_t raw, int16_t reactive_power_percent_exponent_raw, double *value)
+{
+    return fronius_datamanager_controls_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(reactive_power_percent_exponent_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_reactive_power_of_available_decode(
+    int16_t raw, int16_t reactive_power_percent_exponent_raw, double *value)
+{
+    return fronius_datamanager_controls_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(reactive_power_percent_exponent_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_module_current_index_1_decode(
+    uint16_t raw, int16_t module_current_exponent_raw, double *value)
+{
+    return fronius_datamanager_mppt_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(module_current_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_module_current_index_2_decode(
+    uint16_t raw, int16_t module_current_exponent_raw, double *value)
+{
+    return fronius_datamanager_mppt_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(module_current_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_module_voltage_index_1_decode(
+    uint16_t raw, int16_t module_voltage_exponent_raw, double *value)
+{
+    return fronius_datamanager_mppt_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(module_voltage_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_module_voltage_index_2_decode(
+    uint16_t raw, int16_t module_voltage_exponent_raw, double *value)
+{
+    return fronius_datamanager_mppt_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(module_voltage_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_module_power_index_1_decode(
+    uint16_t raw, int16_t module_power_exponent_raw, double *value)
+{
+    return fronius_datamanager_mppt_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(module_power_exponent_raw), (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_module_power_index_2_decode(
+    uint16_t raw, int16_t module_power_exponent_raw, double *value)
+{
+    return fronius_datamanager_mppt_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(module_power_exponent_raw), (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_module_energy_index_1_decode(
+    uint32_t raw, int16_t module_energy_exponent_raw, double *value)
+{ return fieldscribe_decode_wide(fronius_datamanager_ac_current_rule(module_energy_exponent_raw), false, raw, value); }
+FIELDSCRIBE_STATUS fronius_datamanager_module_energy_index_2_decode(
+    uint32_t raw, int16_t module_energy_exponent_raw, double *value)
+{ return fieldscribe_decode_wide(fronius_datamanager_ac_current_rule(module_energy_exponent_raw), false, raw, value); }
+FIELDSCRIBE_STATUS fronius_datamanager_maximum_charge_power_decode(
+    uint16_t raw, int16_t maximum_charge_power_exponent_raw, double *value)
+{
+    return fronius_datamanager_storage_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(maximum_charge_power_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_charge_ramp_rate_decode(
+    uint16_t raw, int16_t charge_ramp_rate_exponent_raw, double *value)
+{
+    return fronius_datamanager_storage_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(charge_ramp_rate_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_discharge_ramp_rate_decode(
+    uint16_t raw, int16_t charge_ramp_rate_exponent_raw, double *value)
+{
+    return fronius_datamanager_storage_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(charge_ramp_rate_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_maximum_charge_apparent_power_decode(
+    uint16_t raw, int16_t maximum_charge_apparent_power_exponent_raw, double *value)
+{
+    return fronius_datamanager_storage_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(maximum_charge_apparent_power_exponent_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_minimum_reserve_encode(
+    double value, int16_t minimum_reserve_exponent_raw, uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        fronius_datamanager_ac_current_rule(minimum_reserve_exponent_raw), value, 0, 65535);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        fronius_datamanager_minimum_reserve_check((uint16_t)whole.number)), (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_minimum_reserve_decode(
+    uint16_t raw, int16_t minimum_reserve_exponent_raw, double *value)
+{
+    return fronius_datamanager_storage_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(minimum_reserve_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_state_of_charge_decode(
+    uint16_t raw, int16_t state_of_charge_exponent_raw, double *value)
+{
+    return fronius_datamanager_storage_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(state_of_charge_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_available_charge_decode(
+    uint16_t raw, int16_t available_charge_exponent_raw, double *value)
+{
+    return fronius_datamanager_storage_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(available_charge_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_battery_voltage_decode(
+    uint16_t raw, int16_t battery_voltage_exponent_raw, double *value)
+{
+    return fronius_datamanager_storage_u16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(battery_voltage_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_discharge_limit_encode(
+    double value, int16_t storage_limits_exponent_raw, int16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        fronius_datamanager_ac_current_rule(storage_limits_exponent_raw), value, -32768, 32767);
+    return fieldscribe_keep_s16(fieldscribe_both(whole.status,
+        fronius_datamanager_discharge_limit_check((int16_t)whole.number)), (int16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_discharge_limit_decode(
+    int16_t raw, int16_t storage_limits_exponent_raw, double *value)
+{
+    return fronius_datamanager_storage_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(storage_limits_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_charge_limit_encode(
+    double value, int16_t storage_limits_exponent_raw, int16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        fronius_datamanager_ac_current_rule(storage_limits_exponent_raw), value, -32768, 32767);
+    return fieldscribe_keep_s16(fieldscribe_both(whole.status,
+        fronius_datamanager_charge_limit_check((int16_t)whole.number)), (int16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS fronius_datamanager_charge_limit_decode(
+    int16_t raw, int16_t storage_limits_exponent_raw, double *value)
+{
+    return fronius_datamanager_storage_s16_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : fieldscribe_decode_value(fronius_datamanager_ac_current_rule(storage_limits_exponent_raw), (int64_t)raw,
+        value);
+}
+#endif
 
 #endif

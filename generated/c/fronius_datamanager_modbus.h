@@ -16,7 +16,7 @@
 #ifndef FRONIUS_DATAMANAGER_MODBUS_H
 #define FRONIUS_DATAMANAGER_MODBUS_H
 
-#if FIELDSCRIBE_MODBUS_INTERFACE != 6
+#if FIELDSCRIBE_MODBUS_INTERFACE != 7
 #error "fieldscribe_modbus_facts.h is of another version: take the one that was generated with this header."
 #endif
 #if FRONIUS_DATAMANAGER_DESCRIPTION != 0x29107d9aU
@@ -134,17 +134,13 @@ typedef struct fronius_datamanager_common_group {
 static inline void fronius_datamanager_common_group_decode(
     size_t block, const uint16_t *words, fronius_datamanager_common_group *group)
 {
-    switch (block) {
-    case 0U:
+    if (block == 0U) {
         (void)fronius_datamanager_manufacturer_decode(&words[0], group->manufacturer_text);
         (void)fronius_datamanager_model_decode(&words[16], group->model_text);
         (void)fronius_datamanager_options_decode(&words[32], group->options_text);
         (void)fronius_datamanager_version_decode(&words[40], group->version_text);
         (void)fronius_datamanager_serial_number_decode(&words[48], group->serial_number_text);
         group->device_address_raw = words[64];
-        break;
-    default:
-        break; /* there is no such block */
     }
 }
 
@@ -197,8 +193,7 @@ typedef struct fronius_datamanager_inverter_group {
 static inline void fronius_datamanager_inverter_group_decode(
     size_t block, const uint16_t *words, fronius_datamanager_inverter_group *group)
 {
-    switch (block) {
-    case 0U:
+    if (block == 0U) {
         group->ac_current_raw = words[0];
         group->phase_a_current_raw = words[1];
         group->phase_b_current_raw = words[2];
@@ -242,9 +237,6 @@ static inline void fronius_datamanager_inverter_group_decode(
         group->vendor_events_2_raw = fronius_datamanager_vendor_events_2_from_words(&words[44]);
         group->vendor_events_3_raw = fronius_datamanager_vendor_events_3_from_words(&words[46]);
         group->vendor_events_4_raw = fronius_datamanager_vendor_events_4_from_words(&words[48]);
-        break;
-    default:
-        break; /* there is no such block */
     }
 }
 
@@ -279,8 +271,7 @@ typedef struct fronius_datamanager_nameplate_group {
 static inline void fronius_datamanager_nameplate_group_decode(
     size_t block, const uint16_t *words, fronius_datamanager_nameplate_group *group)
 {
-    switch (block) {
-    case 0U:
+    if (block == 0U) {
         group->der_type_raw = words[0];
         group->rated_power_raw = words[1];
         group->rated_power_exponent_raw = fronius_datamanager_rated_power_exponent_from_words(&words[2]);
@@ -310,9 +301,6 @@ static inline void fronius_datamanager_nameplate_group_decode(
         group->maximum_discharge_rate_raw = words[23];
         group->maximum_discharge_rate_exponent_raw = fronius_datamanager_maximum_discharge_rate_exponent_from_words(
             &words[24]);
-        break;
-    default:
-        break; /* there is no such block */
     }
 }
 
@@ -352,8 +340,7 @@ typedef struct fronius_datamanager_settings_group {
 static inline void fronius_datamanager_settings_group_decode(
     size_t block, const uint16_t *words, fronius_datamanager_settings_group *group)
 {
-    switch (block) {
-    case 0U:
+    if (block == 0U) {
         group->maximum_power_raw = words[0];
         group->reference_voltage_raw = words[1];
         group->reference_voltage_offset_raw = fronius_datamanager_reference_voltage_offset_from_words(&words[2]);
@@ -388,9 +375,6 @@ static inline void fronius_datamanager_settings_group_decode(
             &words[27]);
         group->maximum_ramp_rate_exponent_raw = fronius_datamanager_maximum_ramp_rate_exponent_from_words(&words[28]);
         group->nominal_frequency_exponent_raw = fronius_datamanager_nominal_frequency_exponent_from_words(&words[29]);
-        break;
-    default:
-        break; /* there is no such block */
     }
 }
 
@@ -420,8 +404,7 @@ typedef struct fronius_datamanager_status_group {
 static inline void fronius_datamanager_status_group_decode(
     size_t block, const uint16_t *words, fronius_datamanager_status_group *group)
 {
-    switch (block) {
-    case 0U:
+    if (block == 0U) {
         group->pv_connection_raw = words[0];
         group->storage_connection_raw = words[1];
         group->grid_connection_raw = words[2];
@@ -444,9 +427,6 @@ static inline void fronius_datamanager_status_group_decode(
         group->isolation_resistance_raw = words[42];
         group->isolation_resistance_exponent_raw = fronius_datamanager_isolation_resistance_exponent_from_words(
             &words[43]);
-        break;
-    default:
-        break; /* there is no such block */
     }
 }
 
@@ -480,8 +460,7 @@ typedef struct fronius_datamanager_controls_group {
 static inline void fronius_datamanager_controls_group_decode(
     size_t block, const uint16_t *words, fronius_datamanager_controls_group *group)
 {
-    switch (block) {
-    case 0U:
+    if (block == 0U) {
         group->connection_window_raw = words[0];
         group->connection_timeout_raw = words[1];
         group->connection_raw = words[2];
@@ -509,9 +488,6 @@ static inline void fronius_datamanager_controls_group_decode(
             &words[22]);
         group->reactive_power_percent_exponent_raw = fronius_datamanager_reactive_power_percent_exponent_from_words(
             &words[23]);
-        break;
-    default:
-        break; /* there is no such block */
     }
 }
 
@@ -548,8 +524,7 @@ typedef struct fronius_datamanager_mppt_group {
 static inline void fronius_datamanager_mppt_group_decode(
     size_t block, const uint16_t *words, fronius_datamanager_mppt_group *group)
 {
-    switch (block) {
-    case 0U:
+    if (block == 0U) {
         group->module_current_exponent_raw = fronius_datamanager_module_current_exponent_from_words(&words[0]);
         group->module_voltage_exponent_raw = fronius_datamanager_module_voltage_exponent_from_words(&words[1]);
         group->module_power_exponent_raw = fronius_datamanager_module_power_exponent_from_words(&words[2]);
@@ -557,8 +532,8 @@ static inline void fronius_datamanager_mppt_group_decode(
         group->module_global_events_raw = fronius_datamanager_module_global_events_from_words(&words[4]);
         group->modules_raw = words[6];
         group->timestamp_period_raw = words[7];
-        break;
-    case 1U:
+    }
+    if (block == 1U) {
         group->module_input_index_1_raw = words[0];
         (void)fronius_datamanager_module_name_index_1_decode(&words[1], group->module_name_index_1_text);
         group->module_current_index_1_raw = words[9];
@@ -569,8 +544,8 @@ static inline void fronius_datamanager_mppt_group_decode(
         group->module_temperature_index_1_raw = fronius_datamanager_module_temperature_index_1_from_words(&words[16]);
         group->module_operating_state_index_1_raw = words[17];
         group->module_events_index_1_raw = fronius_datamanager_module_events_index_1_from_words(&words[18]);
-        break;
-    case 2U:
+    }
+    if (block == 2U) {
         group->module_input_index_2_raw = words[0];
         (void)fronius_datamanager_module_name_index_2_decode(&words[1], group->module_name_index_2_text);
         group->module_current_index_2_raw = words[9];
@@ -581,9 +556,6 @@ static inline void fronius_datamanager_mppt_group_decode(
         group->module_temperature_index_2_raw = fronius_datamanager_module_temperature_index_2_from_words(&words[16]);
         group->module_operating_state_index_2_raw = words[17];
         group->module_events_index_2_raw = fronius_datamanager_module_events_index_2_from_words(&words[18]);
-        break;
-    default:
-        break; /* there is no such block */
     }
 }
 
@@ -617,8 +589,7 @@ typedef struct fronius_datamanager_storage_group {
 static inline void fronius_datamanager_storage_group_decode(
     size_t block, const uint16_t *words, fronius_datamanager_storage_group *group)
 {
-    switch (block) {
-    case 0U:
+    if (block == 0U) {
         group->maximum_charge_power_raw = words[0];
         group->charge_ramp_rate_raw = words[1];
         group->discharge_ramp_rate_raw = words[2];
@@ -646,9 +617,6 @@ static inline void fronius_datamanager_storage_group_decode(
         group->available_charge_exponent_raw = fronius_datamanager_available_charge_exponent_from_words(&words[21]);
         group->battery_voltage_exponent_raw = fronius_datamanager_battery_voltage_exponent_from_words(&words[22]);
         group->storage_limits_exponent_raw = fronius_datamanager_storage_limits_exponent_from_words(&words[23]);
-        break;
-    default:
-        break; /* there is no such block */
     }
 }
 
@@ -668,23 +636,19 @@ typedef struct fronius_datamanager_fronius_group {
 static inline void fronius_datamanager_fronius_group_decode(
     size_t block, const uint16_t *words, fronius_datamanager_fronius_group *group)
 {
-    switch (block) {
-    case 0U:
+    if (block == 0U) {
         group->delete_data_raw = words[0];
         group->store_data_raw = words[1];
         group->active_state_code_raw = words[2];
         group->reset_all_event_flags_raw = words[3];
         group->model_type_raw = words[4];
         group->storage_restrictions_view_mode_raw = words[5];
-        break;
-    case 1U:
+    }
+    if (block == 1U) {
         group->site_power_raw = fronius_datamanager_site_power_from_words(&words[0]);
         group->site_energy_of_day_raw = fronius_datamanager_site_energy_of_day_from_words(&words[2]);
         group->site_energy_of_year_raw = fronius_datamanager_site_energy_of_year_from_words(&words[6]);
         group->site_energy_total_raw = fronius_datamanager_site_energy_total_from_words(&words[10]);
-        break;
-    default:
-        break; /* there is no such block */
     }
 }
 
@@ -2274,10 +2238,7 @@ FIELDSCRIBE_MODBUS_CALL fronius_datamanager_write_storage_restrictions_view_mode
 static const fieldscribe_modbus_r fronius_datamanager_site_power_frame =
     {&fronius_datamanager_layout_u32_order_01, {3U, 0x01F3U, 2U}};
 FIELDSCRIBE_MODBUS_CALL fronius_datamanager_read_site_power(fronius_datamanager_device *device, int64_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x01F3U, 2U, value,
-        fronius_datamanager_site_power_decode(fronius_datamanager_site_power_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x01F3U, 0U, value, fronius_datamanager_site_power_decode(raw)) }
 static const fieldscribe_modbus_r fronius_datamanager_site_energy_of_day_frame =
     {&fronius_datamanager_layout_u64_order_0123, {3U, 0x01F5U, 4U}};
 FIELDSCRIBE_MODBUS_CALL fronius_datamanager_read_site_energy_of_day(fronius_datamanager_device *device, uint64_t *value)

@@ -7,7 +7,7 @@
  *
  * A raw number is the signed or unsigned integer on the wire. A value is its meaning in the unit. A count is the value
  * as an integer number of 10^-DECIMALS units. Encoding rounds to nearest, halves away from zero, and stores a result
- * only if it returns HITACHI_L200_OK. Decoding accepts every raw number that a device may send.
+ * only if it returns FIELDSCRIBE_OK. Decoding accepts every raw number that a device may send.
  * fieldscribe.h explains FIELDSCRIBE_NO_FLOAT and FIELDSCRIBE_FLOAT32.
  *
  * The manual leaves open
@@ -26,7 +26,7 @@
 
 #include "fieldscribe.h"
 
-#if FIELDSCRIBE_INTERFACE != 1
+#if FIELDSCRIBE_INTERFACE != 2
 #error "fieldscribe.h is of another version: take the one that was generated with this header."
 #endif
 #if !defined(FIELDSCRIBE_NO_FLOAT) && !defined(FIELDSCRIBE_DOUBLE)
@@ -41,19 +41,6 @@
 #define HITACHI_L200_DESCRIPTION_DIGEST "41c63c2a3a23005a"
 #define HITACHI_L200_DESCRIPTION 0x41c63c2aU /* for #if */
 
-typedef fieldscribe_status hitachi_l200_status;
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-typedef fieldscribe_real hitachi_l200_real;
-#endif
-#define HITACHI_L200_OK FIELDSCRIBE_OK
-#define HITACHI_L200_OUT_OF_RANGE FIELDSCRIBE_OUT_OF_RANGE
-#define HITACHI_L200_NOT_A_NUMBER FIELDSCRIBE_NOT_A_NUMBER
-#define HITACHI_L200_UNKNOWN_VALUE FIELDSCRIBE_UNKNOWN_VALUE
-#define HITACHI_L200_ZERO_FACTOR FIELDSCRIBE_ZERO_FACTOR
-#define HITACHI_L200_NO_CASE FIELDSCRIBE_NO_CASE
-#define HITACHI_L200_OVERFLOW FIELDSCRIBE_OVERFLOW
-#define HITACHI_L200_SPECIAL FIELDSCRIBE_SPECIAL
-#define HITACHI_L200_MALFORMED FIELDSCRIBE_MALFORMED
 
 /*
  * Times and settings of the line, from the manual. TIMING_..._MS are milliseconds; MIN and MAX are their limits.
@@ -71,16 +58,13 @@ typedef fieldscribe_real hitachi_l200_real;
 #define HITACHI_L200_SERIAL_PARITY_EVEN 1U
 #define HITACHI_L200_SERIAL_PARITY_ODD 2U
 
-
 /* ---- coils (coil) ---- */
 
 enum {
     HITACHI_L200_RUN_COMMAND_STOP = 0,
     HITACHI_L200_RUN_COMMAND_RUN = 1,
 };
-static const char *const hitachi_l200_run_command_names[] = {
-    "stop", "run"
-};
+static const char *const hitachi_l200_run_command_names[] = {"stop", "run"};
 static inline const char *hitachi_l200_run_command_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_run_command_names, raw); }
 
@@ -97,9 +81,7 @@ enum {
     HITACHI_L200_DIRECTION_COMMAND_FORWARD = 0,
     HITACHI_L200_DIRECTION_COMMAND_REVERSE = 1,
 };
-static const char *const hitachi_l200_direction_command_names[] = {
-    "forward", "reverse"
-};
+static const char *const hitachi_l200_direction_command_names[] = {"forward", "reverse"};
 static inline const char *hitachi_l200_direction_command_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_direction_command_names, raw); }
 
@@ -116,9 +98,7 @@ enum {
     HITACHI_L200_EXTERNAL_TRIP_NO_TRIP = 0,
     HITACHI_L200_EXTERNAL_TRIP_TRIP = 1,
 };
-static const char *const hitachi_l200_external_trip_names[] = {
-    "no_trip", "trip"
-};
+static const char *const hitachi_l200_external_trip_names[] = {"no_trip", "trip"};
 static inline const char *hitachi_l200_external_trip_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_external_trip_names, raw); }
 
@@ -135,9 +115,7 @@ enum {
     HITACHI_L200_TRIP_RESET_NO_RESET = 0,
     HITACHI_L200_TRIP_RESET_RESET = 1,
 };
-static const char *const hitachi_l200_trip_reset_names[] = {
-    "no_reset", "reset"
-};
+static const char *const hitachi_l200_trip_reset_names[] = {"no_reset", "reset"};
 static inline const char *hitachi_l200_trip_reset_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_trip_reset_names, raw); }
 
@@ -158,9 +136,7 @@ enum {
     HITACHI_L200_OFF_ON_OFF = 0,
     HITACHI_L200_OFF_ON_ON = 1,
 };
-static const char *const hitachi_l200_off_on_names[] = {
-    "off", "on"
-};
+static const char *const hitachi_l200_off_on_names[] = {"off", "on"};
 static inline const char *hitachi_l200_off_on_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_off_on_names, raw); }
 
@@ -230,9 +206,7 @@ enum {
     HITACHI_L200_RUNNING_STOPPED = 0,
     HITACHI_L200_RUNNING_RUNNING = 1,
 };
-static const char *const hitachi_l200_running_names[] = {
-    "stopped", "running"
-};
+static const char *const hitachi_l200_running_names[] = {"stopped", "running"};
 static inline const char *hitachi_l200_running_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_running_names, raw); }
 
@@ -244,9 +218,7 @@ enum {
     HITACHI_L200_DIRECTION_STATUS_FORWARD = 0,
     HITACHI_L200_DIRECTION_STATUS_REVERSE = 1,
 };
-static const char *const hitachi_l200_direction_status_names[] = {
-    "forward", "reverse"
-};
+static const char *const hitachi_l200_direction_status_names[] = {"forward", "reverse"};
 static inline const char *hitachi_l200_direction_status_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_direction_status_names, raw); }
 
@@ -258,9 +230,7 @@ enum {
     HITACHI_L200_READY_NOT_READY = 0,
     HITACHI_L200_READY_READY = 1,
 };
-static const char *const hitachi_l200_ready_names[] = {
-    "not_ready", "ready"
-};
+static const char *const hitachi_l200_ready_names[] = {"not_ready", "ready"};
 static inline const char *hitachi_l200_ready_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_ready_names, raw); }
 
@@ -278,9 +248,7 @@ enum {
     HITACHI_L200_ALARM_NORMAL = 0,
     HITACHI_L200_ALARM_TRIPPED = 1,
 };
-static const char *const hitachi_l200_alarm_names[] = {
-    "normal", "tripped"
-};
+static const char *const hitachi_l200_alarm_names[] = {"normal", "tripped"};
 static inline const char *hitachi_l200_alarm_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_alarm_names, raw); }
 
@@ -312,9 +280,7 @@ enum {
     HITACHI_L200_DATA_WRITE_NORMAL = 0,
     HITACHI_L200_DATA_WRITE_WRITING = 1,
 };
-static const char *const hitachi_l200_data_write_names[] = {
-    "normal", "writing"
-};
+static const char *const hitachi_l200_data_write_names[] = {"normal", "writing"};
 static inline const char *hitachi_l200_data_write_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_data_write_names, raw); }
 
@@ -326,9 +292,7 @@ enum {
     HITACHI_L200_ERROR_FLAG_NO_ERROR = 0,
     HITACHI_L200_ERROR_FLAG_ERROR = 1,
 };
-static const char *const hitachi_l200_error_flag_names[] = {
-    "no_error", "error"
-};
+static const char *const hitachi_l200_error_flag_names[] = {"no_error", "error"};
 static inline const char *hitachi_l200_error_flag_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_error_flag_names, raw); }
 
@@ -381,12 +345,6 @@ FIELDSCRIBE_STATUS hitachi_l200_network_frequency_setpoint_check(uint16_t raw)
 FIELDSCRIBE_STATUS hitachi_l200_network_frequency_setpoint_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_network_frequency_setpoint_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_network_frequency_setpoint_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_network_frequency_setpoint_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 enum {
     HITACHI_L200_INVERTER_STATUS_INITIAL_STATE = 0,
@@ -432,12 +390,6 @@ FIELDSCRIBE_STATUS hitachi_l200_network_process_value_check(uint16_t raw) { retu
 FIELDSCRIBE_STATUS hitachi_l200_network_process_value_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 1000, raw); }
 static inline int32_t hitachi_l200_network_process_value_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_network_process_value_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 1000, raw); }
-static inline fieldscribe_real hitachi_l200_network_process_value_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* ---- monitor d (holding) ---- */
 
@@ -445,9 +397,6 @@ static inline fieldscribe_real hitachi_l200_network_process_value_decode(uint16_
 #define HITACHI_L200_OUTPUT_FREQUENCY_ADDRESS 0x1001U
 #define HITACHI_L200_OUTPUT_FREQUENCY_DECIMALS 1
 static inline int32_t hitachi_l200_output_frequency_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real hitachi_l200_output_frequency_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
-#endif
 
 /*
  * d002 motor current: 0..200 %; 0.1 % a count; r, modicon 4099, reference 404099; the manual leaves open which current
@@ -456,18 +405,13 @@ static inline fieldscribe_real hitachi_l200_output_frequency_decode(uint16_t raw
 #define HITACHI_L200_MOTOR_CURRENT_ADDRESS 0x1002U
 #define HITACHI_L200_MOTOR_CURRENT_DECIMALS 1
 static inline int32_t hitachi_l200_motor_current_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real hitachi_l200_motor_current_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
-#endif
 
 enum {
     HITACHI_L200_ROTATION_DIRECTION_STOPPED = 0,
     HITACHI_L200_ROTATION_DIRECTION_FORWARD = 1,
     HITACHI_L200_ROTATION_DIRECTION_REVERSE = 2,
 };
-static const char *const hitachi_l200_rotation_direction_names[] = {
-    "stopped", "forward", "reverse"
-};
+static const char *const hitachi_l200_rotation_direction_names[] = {"stopped", "forward", "reverse"};
 static inline const char *hitachi_l200_rotation_direction_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_rotation_direction_names, raw); }
 
@@ -487,9 +431,6 @@ static inline void hitachi_l200_scaled_process_value_to_words(uint32_t raw, uint
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t hitachi_l200_scaled_process_value_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline double hitachi_l200_scaled_process_value_decode(uint32_t raw) { return fieldscribe_ratio_wide(raw, 100); }
-#endif
 
 /* d005 digital inputs: 0..31; r, modicon 4103, reference 404103; erratum d005_range */
 #define HITACHI_L200_DIGITAL_INPUTS_ADDRESS 0x1006U
@@ -521,9 +462,6 @@ static inline int32_t hitachi_l200_digital_outputs_decode(uint16_t raw) { return
 #define HITACHI_L200_OUTPUT_VOLTAGE_ADDRESS 0x100BU
 #define HITACHI_L200_OUTPUT_VOLTAGE_DECIMALS 2
 static inline int32_t hitachi_l200_output_voltage_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real hitachi_l200_output_voltage_decode(uint16_t raw) { return fieldscribe_ratio(raw, 100); }
-#endif
 
 /* d016 run time: 0..999999 h; r, modicon 4110, reference 404110; erratum d016_range_in_units */
 #define HITACHI_L200_RUN_TIME_ADDRESS 0x100DU
@@ -573,10 +511,6 @@ static inline int32_t hitachi_l200_trip_1_error_decode(uint16_t raw) { return ra
 #define HITACHI_L200_TRIP_1_OUTPUT_FREQUENCY_ADDRESS 0x0013U
 #define HITACHI_L200_TRIP_1_OUTPUT_FREQUENCY_DECIMALS 1
 static inline int32_t hitachi_l200_trip_1_output_frequency_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real hitachi_l200_trip_1_output_frequency_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /*
  * d081 trip 1 motor current: 0..6553.5 %; 0.1 % a count; r, modicon 22, reference 400022; the manual leaves open
@@ -585,10 +519,6 @@ static inline fieldscribe_real hitachi_l200_trip_1_output_frequency_decode(uint1
 #define HITACHI_L200_TRIP_1_MOTOR_CURRENT_ADDRESS 0x0015U
 #define HITACHI_L200_TRIP_1_MOTOR_CURRENT_DECIMALS 1
 static inline int32_t hitachi_l200_trip_1_motor_current_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real hitachi_l200_trip_1_motor_current_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /*
  * d081 trip 1 dc bus voltage: 0..6553.5 V; 0.1 V a count; r, modicon 23, reference 400023; the manual leaves open
@@ -597,10 +527,6 @@ static inline fieldscribe_real hitachi_l200_trip_1_motor_current_decode(uint16_t
 #define HITACHI_L200_TRIP_1_DC_BUS_VOLTAGE_ADDRESS 0x0016U
 #define HITACHI_L200_TRIP_1_DC_BUS_VOLTAGE_DECIMALS 1
 static inline int32_t hitachi_l200_trip_1_dc_bus_voltage_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real hitachi_l200_trip_1_dc_bus_voltage_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* d081 trip 1 run time: 0..4294967295 h; r, modicon 24, reference 400024 */
 #define HITACHI_L200_TRIP_1_RUN_TIME_ADDRESS 0x0017U
@@ -634,10 +560,6 @@ static inline int32_t hitachi_l200_trip_2_error_decode(uint16_t raw) { return ra
 #define HITACHI_L200_TRIP_2_OUTPUT_FREQUENCY_ADDRESS 0x001DU
 #define HITACHI_L200_TRIP_2_OUTPUT_FREQUENCY_DECIMALS 1
 static inline int32_t hitachi_l200_trip_2_output_frequency_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real hitachi_l200_trip_2_output_frequency_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /*
  * d082 trip 2 motor current: 0..6553.5 %; 0.1 % a count; r, modicon 32, reference 400032; the manual leaves open
@@ -646,10 +568,6 @@ static inline fieldscribe_real hitachi_l200_trip_2_output_frequency_decode(uint1
 #define HITACHI_L200_TRIP_2_MOTOR_CURRENT_ADDRESS 0x001FU
 #define HITACHI_L200_TRIP_2_MOTOR_CURRENT_DECIMALS 1
 static inline int32_t hitachi_l200_trip_2_motor_current_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real hitachi_l200_trip_2_motor_current_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /*
  * d082 trip 2 dc bus voltage: 0..6553.5 V; 0.1 V a count; r, modicon 33, reference 400033; the manual leaves open
@@ -658,10 +576,6 @@ static inline fieldscribe_real hitachi_l200_trip_2_motor_current_decode(uint16_t
 #define HITACHI_L200_TRIP_2_DC_BUS_VOLTAGE_ADDRESS 0x0020U
 #define HITACHI_L200_TRIP_2_DC_BUS_VOLTAGE_DECIMALS 1
 static inline int32_t hitachi_l200_trip_2_dc_bus_voltage_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real hitachi_l200_trip_2_dc_bus_voltage_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* d082 trip 2 run time: 0..4294967295 h; r, modicon 34, reference 400034 */
 #define HITACHI_L200_TRIP_2_RUN_TIME_ADDRESS 0x0021U
@@ -695,10 +609,6 @@ static inline int32_t hitachi_l200_trip_3_error_decode(uint16_t raw) { return ra
 #define HITACHI_L200_TRIP_3_OUTPUT_FREQUENCY_ADDRESS 0x0027U
 #define HITACHI_L200_TRIP_3_OUTPUT_FREQUENCY_DECIMALS 1
 static inline int32_t hitachi_l200_trip_3_output_frequency_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real hitachi_l200_trip_3_output_frequency_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /*
  * d083 trip 3 motor current: 0..6553.5 %; 0.1 % a count; r, modicon 42, reference 400042; the manual leaves open
@@ -707,10 +617,6 @@ static inline fieldscribe_real hitachi_l200_trip_3_output_frequency_decode(uint1
 #define HITACHI_L200_TRIP_3_MOTOR_CURRENT_ADDRESS 0x0029U
 #define HITACHI_L200_TRIP_3_MOTOR_CURRENT_DECIMALS 1
 static inline int32_t hitachi_l200_trip_3_motor_current_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real hitachi_l200_trip_3_motor_current_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /*
  * d083 trip 3 dc bus voltage: 0..6553.5 V; 0.1 V a count; r, modicon 43, reference 400043; the manual leaves open
@@ -719,10 +625,6 @@ static inline fieldscribe_real hitachi_l200_trip_3_motor_current_decode(uint16_t
 #define HITACHI_L200_TRIP_3_DC_BUS_VOLTAGE_ADDRESS 0x002AU
 #define HITACHI_L200_TRIP_3_DC_BUS_VOLTAGE_DECIMALS 1
 static inline int32_t hitachi_l200_trip_3_dc_bus_voltage_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real hitachi_l200_trip_3_dc_bus_voltage_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* d083 trip 3 run time: 0..4294967295 h; r, modicon 44, reference 400044 */
 #define HITACHI_L200_TRIP_3_RUN_TIME_ADDRESS 0x002BU
@@ -766,11 +668,6 @@ static inline void hitachi_l200_acceleration_time_to_words(uint32_t raw, uint16_
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t hitachi_l200_acceleration_time_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_acceleration_time_encode(double value, uint32_t *raw)
-{ return fieldscribe_store_u32(fieldscribe_rounded_wide(fieldscribe_times_wide(value, 100), 1, 300000), raw); }
-static inline double hitachi_l200_acceleration_time_decode(uint32_t raw) { return fieldscribe_ratio_wide(raw, 100); }
-#endif
 
 /*
  * F202 acceleration time set 2: 0.01..3000 s; in steps of 0.01 s, from 100 s on 0.1 s; 0.01 s a count; rw, modicon
@@ -790,12 +687,6 @@ static inline void hitachi_l200_acceleration_time_set_2_to_words(uint32_t raw, u
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t hitachi_l200_acceleration_time_set_2_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_acceleration_time_set_2_encode(double value, uint32_t *raw)
-{ return fieldscribe_store_u32(fieldscribe_rounded_wide(fieldscribe_times_wide(value, 100), 1, 300000), raw); }
-static inline double hitachi_l200_acceleration_time_set_2_decode(uint32_t raw)
-{ return fieldscribe_ratio_wide(raw, 100); }
-#endif
 
 /*
  * F003 deceleration time: 0.01..3000 s; in steps of 0.01 s, from 100 s on 0.1 s; 0.01 s a count; rw, modicon 4118,
@@ -814,11 +705,6 @@ static inline void hitachi_l200_deceleration_time_to_words(uint32_t raw, uint16_
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t hitachi_l200_deceleration_time_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_deceleration_time_encode(double value, uint32_t *raw)
-{ return fieldscribe_store_u32(fieldscribe_rounded_wide(fieldscribe_times_wide(value, 100), 1, 300000), raw); }
-static inline double hitachi_l200_deceleration_time_decode(uint32_t raw) { return fieldscribe_ratio_wide(raw, 100); }
-#endif
 
 /*
  * F203 deceleration time set 2: 0.01..3000 s; in steps of 0.01 s, from 100 s on 0.1 s; 0.01 s a count; rw, modicon
@@ -838,20 +724,12 @@ static inline void hitachi_l200_deceleration_time_set_2_to_words(uint32_t raw, u
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t hitachi_l200_deceleration_time_set_2_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_deceleration_time_set_2_encode(double value, uint32_t *raw)
-{ return fieldscribe_store_u32(fieldscribe_rounded_wide(fieldscribe_times_wide(value, 100), 1, 300000), raw); }
-static inline double hitachi_l200_deceleration_time_set_2_decode(uint32_t raw)
-{ return fieldscribe_ratio_wide(raw, 100); }
-#endif
 
 enum {
     HITACHI_L200_MOTOR_DIRECTION_FORWARD = 0,
     HITACHI_L200_MOTOR_DIRECTION_REVERSE = 1,
 };
-static const char *const hitachi_l200_motor_direction_names[] = {
-    "forward", "reverse"
-};
+static const char *const hitachi_l200_motor_direction_names[] = {"forward", "reverse"};
 static inline const char *hitachi_l200_motor_direction_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_motor_direction_names, raw); }
 
@@ -951,10 +829,7 @@ static inline int32_t hitachi_l200_run_source_set_2_decode(uint16_t raw) { retur
 #define HITACHI_L200_MOTOR_RATED_FREQUENCY_RAW_MIN 30
 #define HITACHI_L200_MOTOR_RATED_FREQUENCY_RAW_MAX 400
 FIELDSCRIBE_STATUS hitachi_l200_motor_rated_frequency_check(uint16_t raw, uint16_t maximum_frequency_raw)
-{
-    return fieldscribe_between(raw, fieldscribe_whole_of(30),
-        fieldscribe_no_more(fieldscribe_whole_of((int64_t)maximum_frequency_raw), 400));
-}
+{ return fieldscribe_check_wide(raw, 30, fieldscribe_smaller((int64_t)maximum_frequency_raw, 400)); }
 FIELDSCRIBE_STATUS hitachi_l200_motor_rated_frequency_encode(
     int32_t value, uint16_t maximum_frequency_raw, uint16_t *raw)
 {
@@ -969,10 +844,7 @@ static inline int32_t hitachi_l200_motor_rated_frequency_decode(uint16_t raw) { 
 #define HITACHI_L200_MOTOR_RATED_FREQUENCY_SET_2_RAW_MIN 30
 #define HITACHI_L200_MOTOR_RATED_FREQUENCY_SET_2_RAW_MAX 400
 FIELDSCRIBE_STATUS hitachi_l200_motor_rated_frequency_set_2_check(uint16_t raw, uint16_t maximum_frequency_set_2_raw)
-{
-    return fieldscribe_between(raw, fieldscribe_whole_of(30),
-        fieldscribe_no_more(fieldscribe_whole_of((int64_t)maximum_frequency_set_2_raw), 400));
-}
+{ return fieldscribe_check_wide(raw, 30, fieldscribe_smaller((int64_t)maximum_frequency_set_2_raw, 400)); }
 FIELDSCRIBE_STATUS hitachi_l200_motor_rated_frequency_set_2_encode(
     int32_t value, uint16_t maximum_frequency_set_2_raw, uint16_t *raw)
 {
@@ -990,10 +862,7 @@ static inline int32_t hitachi_l200_motor_rated_frequency_set_2_decode(uint16_t r
 #define HITACHI_L200_MAXIMUM_FREQUENCY_RAW_MIN 30
 #define HITACHI_L200_MAXIMUM_FREQUENCY_RAW_MAX 400
 FIELDSCRIBE_STATUS hitachi_l200_maximum_frequency_check(uint16_t raw, uint16_t motor_rated_frequency_raw)
-{
-    return fieldscribe_between(raw, fieldscribe_no_less(fieldscribe_whole_of((int64_t)motor_rated_frequency_raw), 30),
-        fieldscribe_whole_of(400));
-}
+{ return fieldscribe_check_wide(raw, fieldscribe_larger((int64_t)motor_rated_frequency_raw, 30), 400); }
 FIELDSCRIBE_STATUS hitachi_l200_maximum_frequency_encode(
     int32_t value, uint16_t motor_rated_frequency_raw, uint16_t *raw)
 {
@@ -1011,11 +880,7 @@ static inline int32_t hitachi_l200_maximum_frequency_decode(uint16_t raw) { retu
 #define HITACHI_L200_MAXIMUM_FREQUENCY_SET_2_RAW_MIN 30
 #define HITACHI_L200_MAXIMUM_FREQUENCY_SET_2_RAW_MAX 400
 FIELDSCRIBE_STATUS hitachi_l200_maximum_frequency_set_2_check(uint16_t raw, uint16_t motor_rated_frequency_set_2_raw)
-{
-    return fieldscribe_between(raw,
-        fieldscribe_no_less(fieldscribe_whole_of((int64_t)motor_rated_frequency_set_2_raw), 30),
-        fieldscribe_whole_of(400));
-}
+{ return fieldscribe_check_wide(raw, fieldscribe_larger((int64_t)motor_rated_frequency_set_2_raw, 30), 400); }
 FIELDSCRIBE_STATUS hitachi_l200_maximum_frequency_set_2_encode(
     int32_t value, uint16_t motor_rated_frequency_set_2_raw, uint16_t *raw)
 {
@@ -1057,12 +922,6 @@ FIELDSCRIBE_STATUS hitachi_l200_input_o_minimum_frequency_check(uint16_t raw)
 FIELDSCRIBE_STATUS hitachi_l200_input_o_minimum_frequency_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_input_o_minimum_frequency_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_input_o_minimum_frequency_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_input_o_minimum_frequency_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A012 input o maximum frequency: 0..400 Hz; 0.1 Hz a count; rw, modicon 4130, reference 404130 */
 #define HITACHI_L200_INPUT_O_MAXIMUM_FREQUENCY_ADDRESS 0x1021U
@@ -1074,12 +933,6 @@ FIELDSCRIBE_STATUS hitachi_l200_input_o_maximum_frequency_check(uint16_t raw)
 FIELDSCRIBE_STATUS hitachi_l200_input_o_maximum_frequency_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_input_o_maximum_frequency_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_input_o_maximum_frequency_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_input_o_maximum_frequency_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A013 input o minimum setpoint: 0..100 %; rw, modicon 4131, reference 404131 */
 #define HITACHI_L200_INPUT_O_MINIMUM_SETPOINT_ADDRESS 0x1022U
@@ -1103,9 +956,7 @@ enum {
     HITACHI_L200_INPUT_O_START_CONDITION_MINIMUM_FREQUENCY = 0,
     HITACHI_L200_INPUT_O_START_CONDITION_ZERO_HZ = 1,
 };
-static const char *const hitachi_l200_input_o_start_condition_names[] = {
-    "minimum_frequency", "zero_hz"
-};
+static const char *const hitachi_l200_input_o_start_condition_names[] = {"minimum_frequency", "zero_hz"};
 static inline const char *hitachi_l200_input_o_start_condition_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_input_o_start_condition_names, raw); }
 
@@ -1149,11 +1000,6 @@ FIELDSCRIBE_STATUS hitachi_l200_base_frequency_check(uint16_t raw) { return fiel
 FIELDSCRIBE_STATUS hitachi_l200_base_frequency_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_base_frequency_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_base_frequency_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_base_frequency_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A220 base frequency set 2: 0..400 Hz; 0.1 Hz a count; rw, modicon 5391, reference 405391 */
 #define HITACHI_L200_BASE_FREQUENCY_SET_2_ADDRESS 0x150EU
@@ -1164,12 +1010,6 @@ FIELDSCRIBE_STATUS hitachi_l200_base_frequency_set_2_check(uint16_t raw) { retur
 FIELDSCRIBE_STATUS hitachi_l200_base_frequency_set_2_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_base_frequency_set_2_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_base_frequency_set_2_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_base_frequency_set_2_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A021 fixed frequency 1: 0..400 Hz; 0.1 Hz a count; rw, modicon 4139, reference 404139 */
 #define HITACHI_L200_FIXED_FREQUENCY_1_ADDRESS 0x102AU
@@ -1180,12 +1020,6 @@ FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_1_check(uint16_t raw) { return f
 FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_1_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_fixed_frequency_1_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_1_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_fixed_frequency_1_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A022 fixed frequency 2: 0..400 Hz; 0.1 Hz a count; rw, modicon 4141, reference 404141 */
 #define HITACHI_L200_FIXED_FREQUENCY_2_ADDRESS 0x102CU
@@ -1196,12 +1030,6 @@ FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_2_check(uint16_t raw) { return f
 FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_2_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_fixed_frequency_2_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_2_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_fixed_frequency_2_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A023 fixed frequency 3: 0..400 Hz; 0.1 Hz a count; rw, modicon 4143, reference 404143 */
 #define HITACHI_L200_FIXED_FREQUENCY_3_ADDRESS 0x102EU
@@ -1212,12 +1040,6 @@ FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_3_check(uint16_t raw) { return f
 FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_3_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_fixed_frequency_3_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_3_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_fixed_frequency_3_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A024 fixed frequency 4: 0..400 Hz; 0.1 Hz a count; rw, modicon 4145, reference 404145 */
 #define HITACHI_L200_FIXED_FREQUENCY_4_ADDRESS 0x1030U
@@ -1228,12 +1050,6 @@ FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_4_check(uint16_t raw) { return f
 FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_4_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_fixed_frequency_4_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_4_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_fixed_frequency_4_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A025 fixed frequency 5: 0..400 Hz; 0.1 Hz a count; rw, modicon 4147, reference 404147 */
 #define HITACHI_L200_FIXED_FREQUENCY_5_ADDRESS 0x1032U
@@ -1244,12 +1060,6 @@ FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_5_check(uint16_t raw) { return f
 FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_5_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_fixed_frequency_5_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_5_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_fixed_frequency_5_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A026 fixed frequency 6: 0..400 Hz; 0.1 Hz a count; rw, modicon 4149, reference 404149 */
 #define HITACHI_L200_FIXED_FREQUENCY_6_ADDRESS 0x1034U
@@ -1260,12 +1070,6 @@ FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_6_check(uint16_t raw) { return f
 FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_6_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_fixed_frequency_6_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_6_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_fixed_frequency_6_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A027 fixed frequency 7: 0..400 Hz; 0.1 Hz a count; rw, modicon 4151, reference 404151 */
 #define HITACHI_L200_FIXED_FREQUENCY_7_ADDRESS 0x1036U
@@ -1276,12 +1080,6 @@ FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_7_check(uint16_t raw) { return f
 FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_7_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_fixed_frequency_7_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_7_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_fixed_frequency_7_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A028 fixed frequency 8: 0..400 Hz; 0.1 Hz a count; rw, modicon 4153, reference 404153 */
 #define HITACHI_L200_FIXED_FREQUENCY_8_ADDRESS 0x1038U
@@ -1292,12 +1090,6 @@ FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_8_check(uint16_t raw) { return f
 FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_8_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_fixed_frequency_8_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_8_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_fixed_frequency_8_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A029 fixed frequency 9: 0..400 Hz; 0.1 Hz a count; rw, modicon 4155, reference 404155 */
 #define HITACHI_L200_FIXED_FREQUENCY_9_ADDRESS 0x103AU
@@ -1308,12 +1100,6 @@ FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_9_check(uint16_t raw) { return f
 FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_9_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_fixed_frequency_9_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_9_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_fixed_frequency_9_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A030 fixed frequency 10: 0..400 Hz; 0.1 Hz a count; rw, modicon 4157, reference 404157 */
 #define HITACHI_L200_FIXED_FREQUENCY_10_ADDRESS 0x103CU
@@ -1324,12 +1110,6 @@ FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_10_check(uint16_t raw) { return 
 FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_10_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_fixed_frequency_10_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_10_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_fixed_frequency_10_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A031 fixed frequency 11: 0..400 Hz; 0.1 Hz a count; rw, modicon 4159, reference 404159 */
 #define HITACHI_L200_FIXED_FREQUENCY_11_ADDRESS 0x103EU
@@ -1340,12 +1120,6 @@ FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_11_check(uint16_t raw) { return 
 FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_11_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_fixed_frequency_11_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_11_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_fixed_frequency_11_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A032 fixed frequency 12: 0..400 Hz; 0.1 Hz a count; rw, modicon 4161, reference 404161 */
 #define HITACHI_L200_FIXED_FREQUENCY_12_ADDRESS 0x1040U
@@ -1356,12 +1130,6 @@ FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_12_check(uint16_t raw) { return 
 FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_12_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_fixed_frequency_12_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_12_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_fixed_frequency_12_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A033 fixed frequency 13: 0..400 Hz; 0.1 Hz a count; rw, modicon 4163, reference 404163 */
 #define HITACHI_L200_FIXED_FREQUENCY_13_ADDRESS 0x1042U
@@ -1372,12 +1140,6 @@ FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_13_check(uint16_t raw) { return 
 FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_13_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_fixed_frequency_13_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_13_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_fixed_frequency_13_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A034 fixed frequency 14: 0..400 Hz; 0.1 Hz a count; rw, modicon 4165, reference 404165 */
 #define HITACHI_L200_FIXED_FREQUENCY_14_ADDRESS 0x1044U
@@ -1388,12 +1150,6 @@ FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_14_check(uint16_t raw) { return 
 FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_14_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_fixed_frequency_14_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_14_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_fixed_frequency_14_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A035 fixed frequency 15: 0..400 Hz; 0.1 Hz a count; rw, modicon 4167, reference 404167 */
 #define HITACHI_L200_FIXED_FREQUENCY_15_ADDRESS 0x1046U
@@ -1404,12 +1160,6 @@ FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_15_check(uint16_t raw) { return 
 FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_15_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_fixed_frequency_15_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_15_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_fixed_frequency_15_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A038 jog frequency: 0..9.99 Hz; 0.01 Hz a count; rw, modicon 4168, reference 404168 */
 #define HITACHI_L200_JOG_FREQUENCY_ADDRESS 0x1047U
@@ -1420,20 +1170,13 @@ FIELDSCRIBE_STATUS hitachi_l200_jog_frequency_check(uint16_t raw) { return field
 FIELDSCRIBE_STATUS hitachi_l200_jog_frequency_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 999, raw); }
 static inline int32_t hitachi_l200_jog_frequency_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_jog_frequency_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 100, 0, 999, raw); }
-static inline fieldscribe_real hitachi_l200_jog_frequency_decode(uint16_t raw) { return fieldscribe_ratio(raw, 100); }
-#endif
 
 enum {
     HITACHI_L200_JOG_STOP_MODE_COAST = 0,
     HITACHI_L200_JOG_STOP_MODE_RAMP = 1,
     HITACHI_L200_JOG_STOP_MODE_DC_BRAKE = 2,
 };
-static const char *const hitachi_l200_jog_stop_mode_names[] = {
-    "coast", "ramp", "dc_brake"
-};
+static const char *const hitachi_l200_jog_stop_mode_names[] = {"coast", "ramp", "dc_brake"};
 static inline const char *hitachi_l200_jog_stop_mode_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_jog_stop_mode_names, raw); }
 
@@ -1451,9 +1194,7 @@ enum {
     HITACHI_L200_BOOST_MODE_MANUAL = 0,
     HITACHI_L200_BOOST_MODE_AUTOMATIC = 1,
 };
-static const char *const hitachi_l200_boost_mode_names[] = {
-    "manual", "automatic"
-};
+static const char *const hitachi_l200_boost_mode_names[] = {"manual", "automatic"};
 static inline const char *hitachi_l200_boost_mode_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_boost_mode_names, raw); }
 
@@ -1489,11 +1230,6 @@ FIELDSCRIBE_STATUS hitachi_l200_manual_boost_check(uint16_t raw) { return fields
 FIELDSCRIBE_STATUS hitachi_l200_manual_boost_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 200, raw); }
 static inline int32_t hitachi_l200_manual_boost_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_manual_boost_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 200, raw); }
-static inline fieldscribe_real hitachi_l200_manual_boost_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
-#endif
 
 /*
  * A242 manual boost set 2: 0..20 %; 0.1 % a count; rw, modicon 5393, reference 405393; the manual leaves open what 100
@@ -1507,12 +1243,6 @@ FIELDSCRIBE_STATUS hitachi_l200_manual_boost_set_2_check(uint16_t raw) { return 
 FIELDSCRIBE_STATUS hitachi_l200_manual_boost_set_2_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 200, raw); }
 static inline int32_t hitachi_l200_manual_boost_set_2_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_manual_boost_set_2_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 200, raw); }
-static inline fieldscribe_real hitachi_l200_manual_boost_set_2_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A043 manual boost frequency: 0..50 %; 0.1 % a count; rw, modicon 4172, reference 404172 */
 #define HITACHI_L200_MANUAL_BOOST_FREQUENCY_ADDRESS 0x104BU
@@ -1523,12 +1253,6 @@ FIELDSCRIBE_STATUS hitachi_l200_manual_boost_frequency_check(uint16_t raw) { ret
 FIELDSCRIBE_STATUS hitachi_l200_manual_boost_frequency_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 500, raw); }
 static inline int32_t hitachi_l200_manual_boost_frequency_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_manual_boost_frequency_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 500, raw); }
-static inline fieldscribe_real hitachi_l200_manual_boost_frequency_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A243 manual boost frequency set 2: 0..50 %; 0.1 % a count; rw, modicon 5394, reference 405394 */
 #define HITACHI_L200_MANUAL_BOOST_FREQUENCY_SET_2_ADDRESS 0x1511U
@@ -1540,20 +1264,12 @@ FIELDSCRIBE_STATUS hitachi_l200_manual_boost_frequency_set_2_check(uint16_t raw)
 FIELDSCRIBE_STATUS hitachi_l200_manual_boost_frequency_set_2_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 500, raw); }
 static inline int32_t hitachi_l200_manual_boost_frequency_set_2_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_manual_boost_frequency_set_2_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 500, raw); }
-static inline fieldscribe_real hitachi_l200_manual_boost_frequency_set_2_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 enum {
     HITACHI_L200_VF_CHARACTERISTIC_CONSTANT = 0,
     HITACHI_L200_VF_CHARACTERISTIC_QUADRATIC = 1,
 };
-static const char *const hitachi_l200_vf_characteristic_names[] = {
-    "constant", "quadratic"
-};
+static const char *const hitachi_l200_vf_characteristic_names[] = {"constant", "quadratic"};
 static inline const char *hitachi_l200_vf_characteristic_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_vf_characteristic_names, raw); }
 
@@ -1606,9 +1322,7 @@ enum {
     HITACHI_L200_INACTIVE_ACTIVE_INACTIVE = 0,
     HITACHI_L200_INACTIVE_ACTIVE_ACTIVE = 1,
 };
-static const char *const hitachi_l200_inactive_active_names[] = {
-    "inactive", "active"
-};
+static const char *const hitachi_l200_inactive_active_names[] = {"inactive", "active"};
 static inline const char *hitachi_l200_inactive_active_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_inactive_active_names, raw); }
 
@@ -1631,10 +1345,7 @@ static inline int32_t hitachi_l200_dc_brake_enable_decode(uint16_t raw) { return
 #define HITACHI_L200_DC_BRAKE_FREQUENCY_RAW_MAX 600
 #define HITACHI_L200_DC_BRAKE_FREQUENCY_DECIMALS 1
 FIELDSCRIBE_STATUS hitachi_l200_dc_brake_frequency_check(uint16_t raw, uint16_t start_frequency_raw)
-{
-    return fieldscribe_between(raw, fieldscribe_no_less(fieldscribe_whole_of((int64_t)start_frequency_raw), 5),
-        fieldscribe_whole_of(600));
-}
+{ return fieldscribe_check_wide(raw, fieldscribe_larger((int64_t)start_frequency_raw, 5), 600); }
 FIELDSCRIBE_STATUS hitachi_l200_dc_brake_frequency_encode_count(
     int32_t count, uint16_t start_frequency_raw, uint16_t *raw)
 {
@@ -1643,19 +1354,6 @@ FIELDSCRIBE_STATUS hitachi_l200_dc_brake_frequency_encode_count(
         (uint16_t)count, raw) : FIELDSCRIBE_OUT_OF_RANGE;
 }
 static inline int32_t hitachi_l200_dc_brake_frequency_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_dc_brake_frequency_encode(
-    fieldscribe_real value, uint16_t start_frequency_raw, uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_rounded(fieldscribe_times(value, 10),
-        HITACHI_L200_DC_BRAKE_FREQUENCY_RAW_MIN, HITACHI_L200_DC_BRAKE_FREQUENCY_RAW_MAX);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        hitachi_l200_dc_brake_frequency_check((uint16_t)whole.number, start_frequency_raw)), (uint16_t)whole.number,
-        raw);
-}
-static inline fieldscribe_real hitachi_l200_dc_brake_frequency_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A053 dc brake delay: 0..5 s; 0.1 s a count; rw, modicon 4179, reference 404179 */
 #define HITACHI_L200_DC_BRAKE_DELAY_ADDRESS 0x1052U
@@ -1666,11 +1364,6 @@ FIELDSCRIBE_STATUS hitachi_l200_dc_brake_delay_check(uint16_t raw) { return fiel
 FIELDSCRIBE_STATUS hitachi_l200_dc_brake_delay_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 50, raw); }
 static inline int32_t hitachi_l200_dc_brake_delay_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_dc_brake_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 50, raw); }
-static inline fieldscribe_real hitachi_l200_dc_brake_delay_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
-#endif
 
 /*
  * A054 dc brake torque: 0..100 %; rw, modicon 4180, reference 404180; the manual leaves open what 100 % is
@@ -1693,19 +1386,12 @@ FIELDSCRIBE_STATUS hitachi_l200_dc_brake_time_check(uint16_t raw) { return field
 FIELDSCRIBE_STATUS hitachi_l200_dc_brake_time_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 600, raw); }
 static inline int32_t hitachi_l200_dc_brake_time_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_dc_brake_time_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 600, raw); }
-static inline fieldscribe_real hitachi_l200_dc_brake_time_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
-#endif
 
 enum {
     HITACHI_L200_DC_BRAKE_TRIGGER_EDGE = 0,
     HITACHI_L200_DC_BRAKE_TRIGGER_LEVEL = 1,
 };
-static const char *const hitachi_l200_dc_brake_trigger_names[] = {
-    "edge", "level"
-};
+static const char *const hitachi_l200_dc_brake_trigger_names[] = {"edge", "level"};
 static inline const char *hitachi_l200_dc_brake_trigger_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_dc_brake_trigger_names, raw); }
 
@@ -1760,22 +1446,6 @@ FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_decode_count(uint16_t raw,
     return fieldscribe_keep_s32(hitachi_l200_upper_frequency_limit_is_special(raw) ? FIELDSCRIBE_SPECIAL
         : FIELDSCRIBE_OK, raw, count);
 }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_encode(
-    fieldscribe_real value, const hitachi_l200_with_lower_frequency_limit_and_maximum_frequency *with, uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_rounded(fieldscribe_times(value, 10),
-        HITACHI_L200_UPPER_FREQUENCY_LIMIT_RAW_MIN, HITACHI_L200_UPPER_FREQUENCY_LIMIT_RAW_MAX);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        (hitachi_l200_upper_frequency_limit_is_special((uint16_t)whole.number) ? FIELDSCRIBE_SPECIAL
-        : hitachi_l200_upper_frequency_limit_check((uint16_t)whole.number, with))), (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_decode(uint16_t raw, fieldscribe_real *value)
-{
-    return fieldscribe_keep_real(hitachi_l200_upper_frequency_limit_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : FIELDSCRIBE_OK, fieldscribe_ratio(raw, 10), value);
-}
-#endif
 
 /*
  * A261 upper frequency limit set 2: lower_frequency_limit_set_2.raw x 0.1..min(400, maximum_frequency_set_2.raw) Hz;
@@ -1818,23 +1488,6 @@ FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_set_2_decode_count(uint16_
     return fieldscribe_keep_s32(hitachi_l200_upper_frequency_limit_set_2_is_special(raw) ? FIELDSCRIBE_SPECIAL
         : FIELDSCRIBE_OK, raw, count);
 }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_set_2_encode(
-    fieldscribe_real value, const hitachi_l200_with_lower_frequency_limit_set_2_and_maximum_frequency_set_2 *with,
-    uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_rounded(fieldscribe_times(value, 10),
-        HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_RAW_MIN, HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_RAW_MAX);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        (hitachi_l200_upper_frequency_limit_set_2_is_special((uint16_t)whole.number) ? FIELDSCRIBE_SPECIAL
-        : hitachi_l200_upper_frequency_limit_set_2_check((uint16_t)whole.number, with))), (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_set_2_decode(uint16_t raw, fieldscribe_real *value)
-{
-    return fieldscribe_keep_real(hitachi_l200_upper_frequency_limit_set_2_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : FIELDSCRIBE_OK, fieldscribe_ratio(raw, 10), value);
-}
-#endif
 
 /*
  * A062 lower frequency limit: max(0.5, start_frequency.raw x 0.1)..min(400, upper_frequency_limit.raw x 0.1) Hz; while
@@ -1879,21 +1532,6 @@ FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_decode_count(uint16_t raw,
     return fieldscribe_keep_s32(hitachi_l200_lower_frequency_limit_is_special(raw) ? FIELDSCRIBE_SPECIAL
         : FIELDSCRIBE_OK, raw, count);
 }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_encode(
-    fieldscribe_real value, const hitachi_l200_with_start_frequency_and_upper_frequency_limit *with, uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_rounded(fieldscribe_times(value, 10), 0, 4000);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        (hitachi_l200_lower_frequency_limit_is_special((uint16_t)whole.number) ? FIELDSCRIBE_SPECIAL
-        : hitachi_l200_lower_frequency_limit_check((uint16_t)whole.number, with))), (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_decode(uint16_t raw, fieldscribe_real *value)
-{
-    return fieldscribe_keep_real(hitachi_l200_lower_frequency_limit_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : FIELDSCRIBE_OK, fieldscribe_ratio(raw, 10), value);
-}
-#endif
 
 /*
  * A262 lower frequency limit set 2: max(0.5, start_frequency.raw x 0.1)..min(400, upper_frequency_limit_set_2.raw x
@@ -1938,22 +1576,6 @@ FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_set_2_decode_count(uint16_
     return fieldscribe_keep_s32(hitachi_l200_lower_frequency_limit_set_2_is_special(raw) ? FIELDSCRIBE_SPECIAL
         : FIELDSCRIBE_OK, raw, count);
 }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_set_2_encode(
-    fieldscribe_real value, const hitachi_l200_with_start_frequency_and_upper_frequency_limit_set_2 *with,
-    uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_rounded(fieldscribe_times(value, 10), 0, 4000);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        (hitachi_l200_lower_frequency_limit_set_2_is_special((uint16_t)whole.number) ? FIELDSCRIBE_SPECIAL
-        : hitachi_l200_lower_frequency_limit_set_2_check((uint16_t)whole.number, with))), (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_set_2_decode(uint16_t raw, fieldscribe_real *value)
-{
-    return fieldscribe_keep_real(hitachi_l200_lower_frequency_limit_set_2_is_special(raw) ? FIELDSCRIBE_SPECIAL
-        : FIELDSCRIBE_OK, fieldscribe_ratio(raw, 10), value);
-}
-#endif
 
 /* A063 jump frequency 1: 0..400 Hz; 0.1 Hz a count; rw, modicon 4189, reference 404189 */
 #define HITACHI_L200_JUMP_FREQUENCY_1_ADDRESS 0x105CU
@@ -1964,11 +1586,6 @@ FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_1_check(uint16_t raw) { return fi
 FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_1_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_jump_frequency_1_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_1_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_jump_frequency_1_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A064 jump frequency 1 width: 0..10 Hz; 0.1 Hz a count; rw, modicon 4190, reference 404190 */
 #define HITACHI_L200_JUMP_FREQUENCY_1_WIDTH_ADDRESS 0x105DU
@@ -1979,12 +1596,6 @@ FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_1_width_check(uint16_t raw) { ret
 FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_1_width_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 100, raw); }
 static inline int32_t hitachi_l200_jump_frequency_1_width_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_1_width_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 100, raw); }
-static inline fieldscribe_real hitachi_l200_jump_frequency_1_width_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A065 jump frequency 2: 0..400 Hz; 0.1 Hz a count; rw, modicon 4192, reference 404192 */
 #define HITACHI_L200_JUMP_FREQUENCY_2_ADDRESS 0x105FU
@@ -1995,11 +1606,6 @@ FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_2_check(uint16_t raw) { return fi
 FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_2_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_jump_frequency_2_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_2_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_jump_frequency_2_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A066 jump frequency 2 width: 0..10 Hz; 0.1 Hz a count; rw, modicon 4193, reference 404193 */
 #define HITACHI_L200_JUMP_FREQUENCY_2_WIDTH_ADDRESS 0x1060U
@@ -2010,12 +1616,6 @@ FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_2_width_check(uint16_t raw) { ret
 FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_2_width_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 100, raw); }
 static inline int32_t hitachi_l200_jump_frequency_2_width_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_2_width_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 100, raw); }
-static inline fieldscribe_real hitachi_l200_jump_frequency_2_width_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A067 jump frequency 3: 0..400 Hz; 0.1 Hz a count; rw, modicon 4195, reference 404195 */
 #define HITACHI_L200_JUMP_FREQUENCY_3_ADDRESS 0x1062U
@@ -2026,11 +1626,6 @@ FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_3_check(uint16_t raw) { return fi
 FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_3_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_jump_frequency_3_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_3_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_jump_frequency_3_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A068 jump frequency 3 width: 0..10 Hz; 0.1 Hz a count; rw, modicon 4196, reference 404196 */
 #define HITACHI_L200_JUMP_FREQUENCY_3_WIDTH_ADDRESS 0x1063U
@@ -2041,12 +1636,6 @@ FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_3_width_check(uint16_t raw) { ret
 FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_3_width_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 100, raw); }
 static inline int32_t hitachi_l200_jump_frequency_3_width_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_3_width_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 100, raw); }
-static inline fieldscribe_real hitachi_l200_jump_frequency_3_width_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A071 pid enable: 0, 1; rw, modicon 4200, reference 404200 */
 #define HITACHI_L200_PID_ENABLE_ADDRESS 0x1067U
@@ -2067,12 +1656,6 @@ FIELDSCRIBE_STATUS hitachi_l200_pid_proportional_gain_check(uint16_t raw) { retu
 FIELDSCRIBE_STATUS hitachi_l200_pid_proportional_gain_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 2, 50, raw); }
 static inline int32_t hitachi_l200_pid_proportional_gain_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_pid_proportional_gain_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 2, 50, raw); }
-static inline fieldscribe_real hitachi_l200_pid_proportional_gain_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A073 pid integral time: 0..150 s; 0.1 s a count; rw, modicon 4202, reference 404202 */
 #define HITACHI_L200_PID_INTEGRAL_TIME_ADDRESS 0x1069U
@@ -2083,12 +1666,6 @@ FIELDSCRIBE_STATUS hitachi_l200_pid_integral_time_check(uint16_t raw) { return f
 FIELDSCRIBE_STATUS hitachi_l200_pid_integral_time_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 1500, raw); }
 static inline int32_t hitachi_l200_pid_integral_time_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_pid_integral_time_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 1500, raw); }
-static inline fieldscribe_real hitachi_l200_pid_integral_time_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A074 pid derivative time: 0..100 s; 0.1 s a count; rw, modicon 4203, reference 404203 */
 #define HITACHI_L200_PID_DERIVATIVE_TIME_ADDRESS 0x106AU
@@ -2099,12 +1676,6 @@ FIELDSCRIBE_STATUS hitachi_l200_pid_derivative_time_check(uint16_t raw) { return
 FIELDSCRIBE_STATUS hitachi_l200_pid_derivative_time_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 1000, raw); }
 static inline int32_t hitachi_l200_pid_derivative_time_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_pid_derivative_time_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 1000, raw); }
-static inline fieldscribe_real hitachi_l200_pid_derivative_time_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A075 pid display factor: 0.01..99.99; 0.01 a count; rw, modicon 4204, reference 404204 */
 #define HITACHI_L200_PID_DISPLAY_FACTOR_ADDRESS 0x106BU
@@ -2115,12 +1686,6 @@ FIELDSCRIBE_STATUS hitachi_l200_pid_display_factor_check(uint16_t raw) { return 
 FIELDSCRIBE_STATUS hitachi_l200_pid_display_factor_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 1, 9999, raw); }
 static inline int32_t hitachi_l200_pid_display_factor_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_pid_display_factor_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 100, 1, 9999, raw); }
-static inline fieldscribe_real hitachi_l200_pid_display_factor_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 100); }
-#endif
 
 enum {
     HITACHI_L200_PID_PROCESS_VALUE_SOURCE_TERMINAL_OI = 0,
@@ -2186,20 +1751,13 @@ FIELDSCRIBE_STATUS hitachi_l200_pid_output_limit_check(uint16_t raw) { return fi
 FIELDSCRIBE_STATUS hitachi_l200_pid_output_limit_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 1000, raw); }
 static inline int32_t hitachi_l200_pid_output_limit_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_pid_output_limit_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 1000, raw); }
-static inline fieldscribe_real hitachi_l200_pid_output_limit_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
-#endif
 
 enum {
     HITACHI_L200_AVR_MODE_ACTIVE = 0,
     HITACHI_L200_AVR_MODE_INACTIVE = 1,
     HITACHI_L200_AVR_MODE_INACTIVE_IN_DECELERATION = 2,
 };
-static const char *const hitachi_l200_avr_mode_names[] = {
-    "active", "inactive", "inactive_in_deceleration"
-};
+static const char *const hitachi_l200_avr_mode_names[] = {"active", "inactive", "inactive_in_deceleration"};
 static inline const char *hitachi_l200_avr_mode_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_avr_mode_names, raw); }
 
@@ -2242,11 +1800,6 @@ static inline void hitachi_l200_acceleration_time_2_to_words(uint32_t raw, uint1
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t hitachi_l200_acceleration_time_2_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_acceleration_time_2_encode(double value, uint32_t *raw)
-{ return fieldscribe_store_u32(fieldscribe_rounded_wide(fieldscribe_times_wide(value, 100), 1, 300000), raw); }
-static inline double hitachi_l200_acceleration_time_2_decode(uint32_t raw) { return fieldscribe_ratio_wide(raw, 100); }
-#endif
 
 /*
  * A292 acceleration time 2 set 2: 0.01..3000 s; in steps of 0.01 s, from 100 s on 0.1 s; 0.01 s a count; rw; erratum
@@ -2272,11 +1825,6 @@ static inline void hitachi_l200_deceleration_time_2_to_words(uint32_t raw, uint1
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t hitachi_l200_deceleration_time_2_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_deceleration_time_2_encode(double value, uint32_t *raw)
-{ return fieldscribe_store_u32(fieldscribe_rounded_wide(fieldscribe_times_wide(value, 100), 1, 300000), raw); }
-static inline double hitachi_l200_deceleration_time_2_decode(uint32_t raw) { return fieldscribe_ratio_wide(raw, 100); }
-#endif
 
 /*
  * A293 deceleration time 2 set 2: 0.01..3000 s; in steps of 0.01 s, from 100 s on 0.1 s; 0.01 s a count; rw, modicon
@@ -2296,20 +1844,12 @@ static inline void hitachi_l200_deceleration_time_2_set_2_to_words(uint32_t raw,
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t hitachi_l200_deceleration_time_2_set_2_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_deceleration_time_2_set_2_encode(double value, uint32_t *raw)
-{ return fieldscribe_store_u32(fieldscribe_rounded_wide(fieldscribe_times_wide(value, 100), 1, 300000), raw); }
-static inline double hitachi_l200_deceleration_time_2_set_2_decode(uint32_t raw)
-{ return fieldscribe_ratio_wide(raw, 100); }
-#endif
 
 enum {
     HITACHI_L200_RAMP_2_SELECTION_TERMINAL_2CH = 0,
     HITACHI_L200_RAMP_2_SELECTION_FREQUENCY = 1,
 };
-static const char *const hitachi_l200_ramp_2_selection_names[] = {
-    "terminal_2ch", "frequency"
-};
+static const char *const hitachi_l200_ramp_2_selection_names[] = {"terminal_2ch", "frequency"};
 static inline const char *hitachi_l200_ramp_2_selection_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_ramp_2_selection_names, raw); }
 
@@ -2343,12 +1883,6 @@ FIELDSCRIBE_STATUS hitachi_l200_acceleration_change_frequency_check(uint16_t raw
 FIELDSCRIBE_STATUS hitachi_l200_acceleration_change_frequency_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_acceleration_change_frequency_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_acceleration_change_frequency_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_acceleration_change_frequency_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A295 acceleration change frequency set 2: 0..400 Hz; 0.1 Hz a count; rw, modicon 5406, reference 405406 */
 #define HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_SET_2_ADDRESS 0x151DU
@@ -2360,12 +1894,6 @@ FIELDSCRIBE_STATUS hitachi_l200_acceleration_change_frequency_set_2_check(uint16
 FIELDSCRIBE_STATUS hitachi_l200_acceleration_change_frequency_set_2_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_acceleration_change_frequency_set_2_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_acceleration_change_frequency_set_2_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_acceleration_change_frequency_set_2_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A096 deceleration change frequency: 0..400 Hz; 0.1 Hz a count; rw, modicon 4220, reference 404220 */
 #define HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_ADDRESS 0x107BU
@@ -2377,12 +1905,6 @@ FIELDSCRIBE_STATUS hitachi_l200_deceleration_change_frequency_check(uint16_t raw
 FIELDSCRIBE_STATUS hitachi_l200_deceleration_change_frequency_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_deceleration_change_frequency_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_deceleration_change_frequency_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_deceleration_change_frequency_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A296 deceleration change frequency set 2: 0..400 Hz; 0.1 Hz a count; rw, modicon 5408, reference 405408 */
 #define HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_SET_2_ADDRESS 0x151FU
@@ -2394,20 +1916,12 @@ FIELDSCRIBE_STATUS hitachi_l200_deceleration_change_frequency_set_2_check(uint16
 FIELDSCRIBE_STATUS hitachi_l200_deceleration_change_frequency_set_2_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_deceleration_change_frequency_set_2_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_deceleration_change_frequency_set_2_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_deceleration_change_frequency_set_2_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 enum {
     HITACHI_L200_RAMP_CURVE_LINEAR = 0,
     HITACHI_L200_RAMP_CURVE_S_CURVE = 1,
 };
-static const char *const hitachi_l200_ramp_curve_names[] = {
-    "linear", "s_curve"
-};
+static const char *const hitachi_l200_ramp_curve_names[] = {"linear", "s_curve"};
 static inline const char *hitachi_l200_ramp_curve_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_ramp_curve_names, raw); }
 
@@ -2441,12 +1955,6 @@ FIELDSCRIBE_STATUS hitachi_l200_input_oi_minimum_frequency_check(uint16_t raw)
 FIELDSCRIBE_STATUS hitachi_l200_input_oi_minimum_frequency_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_input_oi_minimum_frequency_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_input_oi_minimum_frequency_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_input_oi_minimum_frequency_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A102 input oi maximum frequency: 0..400 Hz; 0.1 Hz a count; rw, modicon 4226, reference 404226 */
 #define HITACHI_L200_INPUT_OI_MAXIMUM_FREQUENCY_ADDRESS 0x1081U
@@ -2458,12 +1966,6 @@ FIELDSCRIBE_STATUS hitachi_l200_input_oi_maximum_frequency_check(uint16_t raw)
 FIELDSCRIBE_STATUS hitachi_l200_input_oi_maximum_frequency_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_input_oi_maximum_frequency_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_input_oi_maximum_frequency_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_input_oi_maximum_frequency_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A103 input oi minimum setpoint: 0..100 %; rw, modicon 4227, reference 404227 */
 #define HITACHI_L200_INPUT_OI_MINIMUM_SETPOINT_ADDRESS 0x1082U
@@ -2487,9 +1989,7 @@ enum {
     HITACHI_L200_INPUT_OI_START_CONDITION_MINIMUM_FREQUENCY = 0,
     HITACHI_L200_INPUT_OI_START_CONDITION_ZERO_HZ = 1,
 };
-static const char *const hitachi_l200_input_oi_start_condition_names[] = {
-    "minimum_frequency", "zero_hz"
-};
+static const char *const hitachi_l200_input_oi_start_condition_names[] = {"minimum_frequency", "zero_hz"};
 static inline const char *hitachi_l200_input_oi_start_condition_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_input_oi_start_condition_names, raw); }
 
@@ -2547,9 +2047,7 @@ enum {
     HITACHI_L200_CALCULATION_OPERATOR_SUBTRACT = 1,
     HITACHI_L200_CALCULATION_OPERATOR_MULTIPLY = 2,
 };
-static const char *const hitachi_l200_calculation_operator_names[] = {
-    "add", "subtract", "multiply"
-};
+static const char *const hitachi_l200_calculation_operator_names[] = {"add", "subtract", "multiply"};
 static inline const char *hitachi_l200_calculation_operator_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_calculation_operator_names, raw); }
 
@@ -2575,19 +2073,12 @@ FIELDSCRIBE_STATUS hitachi_l200_frequency_offset_check(uint16_t raw) { return fi
 FIELDSCRIBE_STATUS hitachi_l200_frequency_offset_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_frequency_offset_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_frequency_offset_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_frequency_offset_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
-#endif
 
 enum {
     HITACHI_L200_FREQUENCY_OFFSET_SIGN_PLUS = 0,
     HITACHI_L200_FREQUENCY_OFFSET_SIGN_MINUS = 1,
 };
-static const char *const hitachi_l200_frequency_offset_sign_names[] = {
-    "plus", "minus"
-};
+static const char *const hitachi_l200_frequency_offset_sign_names[] = {"plus", "minus"};
 static inline const char *hitachi_l200_frequency_offset_sign_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_frequency_offset_sign_names, raw); }
 
@@ -2611,12 +2102,6 @@ FIELDSCRIBE_STATUS hitachi_l200_potentiometer_minimum_frequency_check(uint16_t r
 FIELDSCRIBE_STATUS hitachi_l200_potentiometer_minimum_frequency_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_potentiometer_minimum_frequency_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_potentiometer_minimum_frequency_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_potentiometer_minimum_frequency_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A152 potentiometer maximum frequency: 0..400 Hz; 0.1 Hz a count; rw, modicon 4247, reference 404247 */
 #define HITACHI_L200_POTENTIOMETER_MAXIMUM_FREQUENCY_ADDRESS 0x1096U
@@ -2628,12 +2113,6 @@ FIELDSCRIBE_STATUS hitachi_l200_potentiometer_maximum_frequency_check(uint16_t r
 FIELDSCRIBE_STATUS hitachi_l200_potentiometer_maximum_frequency_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_potentiometer_maximum_frequency_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_potentiometer_maximum_frequency_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_potentiometer_maximum_frequency_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* A153 potentiometer minimum setpoint: 0..100 %; rw, modicon 4248, reference 404248 */
 #define HITACHI_L200_POTENTIOMETER_MINIMUM_SETPOINT_ADDRESS 0x1097U
@@ -2659,9 +2138,7 @@ enum {
     HITACHI_L200_POTENTIOMETER_START_CONDITION_MINIMUM_FREQUENCY = 0,
     HITACHI_L200_POTENTIOMETER_START_CONDITION_ZERO_HZ = 1,
 };
-static const char *const hitachi_l200_potentiometer_start_condition_names[] = {
-    "minimum_frequency", "zero_hz"
-};
+static const char *const hitachi_l200_potentiometer_start_condition_names[] = {"minimum_frequency", "zero_hz"};
 static inline const char *hitachi_l200_potentiometer_start_condition_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_potentiometer_start_condition_names, raw); }
 
@@ -2709,12 +2186,6 @@ FIELDSCRIBE_STATUS hitachi_l200_allowed_power_failure_time_check(uint16_t raw)
 FIELDSCRIBE_STATUS hitachi_l200_allowed_power_failure_time_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 3, 250, raw); }
 static inline int32_t hitachi_l200_allowed_power_failure_time_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_allowed_power_failure_time_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 3, 250, raw); }
-static inline fieldscribe_real hitachi_l200_allowed_power_failure_time_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* b003 restart delay: 0.3..100 s; 0.1 s a count; rw, modicon 4263, reference 404263 */
 #define HITACHI_L200_RESTART_DELAY_ADDRESS 0x10A6U
@@ -2725,19 +2196,12 @@ FIELDSCRIBE_STATUS hitachi_l200_restart_delay_check(uint16_t raw) { return field
 FIELDSCRIBE_STATUS hitachi_l200_restart_delay_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 3, 1000, raw); }
 static inline int32_t hitachi_l200_restart_delay_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_restart_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 3, 1000, raw); }
-static inline fieldscribe_real hitachi_l200_restart_delay_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
-#endif
 
 enum {
     HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_NO_TRIP = 0,
     HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_TRIP = 1,
 };
-static const char *const hitachi_l200_power_failure_trip_at_standstill_names[] = {
-    "no_trip", "trip"
-};
+static const char *const hitachi_l200_power_failure_trip_at_standstill_names[] = {"no_trip", "trip"};
 static inline const char *hitachi_l200_power_failure_trip_at_standstill_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_power_failure_trip_at_standstill_names, raw); }
 
@@ -2755,9 +2219,7 @@ enum {
     HITACHI_L200_POWER_FAILURE_RESTARTS_ATTEMPTS_16 = 0,
     HITACHI_L200_POWER_FAILURE_RESTARTS_UNLIMITED = 1,
 };
-static const char *const hitachi_l200_power_failure_restarts_names[] = {
-    "attempts_16", "unlimited"
-};
+static const char *const hitachi_l200_power_failure_restarts_names[] = {"attempts_16", "unlimited"};
 static inline const char *hitachi_l200_power_failure_restarts_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_power_failure_restarts_names, raw); }
 
@@ -2781,12 +2243,6 @@ FIELDSCRIBE_STATUS hitachi_l200_motor_protection_level_check(uint16_t raw)
 FIELDSCRIBE_STATUS hitachi_l200_motor_protection_level_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 2000, 12000, raw); }
 static inline int32_t hitachi_l200_motor_protection_level_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_motor_protection_level_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 100, 2000, 12000, raw); }
-static inline fieldscribe_real hitachi_l200_motor_protection_level_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 100); }
-#endif
 
 /* b212 motor protection level set 2: 20..120 %; 0.01 % a count; rw, modicon 5414, reference 405414 */
 #define HITACHI_L200_MOTOR_PROTECTION_LEVEL_SET_2_ADDRESS 0x1525U
@@ -2798,12 +2254,6 @@ FIELDSCRIBE_STATUS hitachi_l200_motor_protection_level_set_2_check(uint16_t raw)
 FIELDSCRIBE_STATUS hitachi_l200_motor_protection_level_set_2_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 2000, 12000, raw); }
 static inline int32_t hitachi_l200_motor_protection_level_set_2_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_motor_protection_level_set_2_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 100, 2000, 12000, raw); }
-static inline fieldscribe_real hitachi_l200_motor_protection_level_set_2_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 100); }
-#endif
 
 enum {
     HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_QUADRATIC_1 = 0,
@@ -2841,9 +2291,7 @@ enum {
     HITACHI_L200_CURRENT_LIMIT_MODE_ACTIVE = 1,
     HITACHI_L200_CURRENT_LIMIT_MODE_ACTIVE_AT_CONSTANT_SPEED = 2,
 };
-static const char *const hitachi_l200_current_limit_mode_names[] = {
-    "inactive", "active", "active_at_constant_speed"
-};
+static const char *const hitachi_l200_current_limit_mode_names[] = {"inactive", "active", "active_at_constant_speed"};
 static inline const char *hitachi_l200_current_limit_mode_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_current_limit_mode_names, raw); }
 
@@ -2876,12 +2324,6 @@ FIELDSCRIBE_STATUS hitachi_l200_current_limit_level_check(uint16_t raw) { return
 FIELDSCRIBE_STATUS hitachi_l200_current_limit_level_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 1000, 15000, raw); }
 static inline int32_t hitachi_l200_current_limit_level_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_current_limit_level_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 100, 1000, 15000, raw); }
-static inline fieldscribe_real hitachi_l200_current_limit_level_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 100); }
-#endif
 
 /* b222 current limit level set 2: 10..150 %; 0.01 % a count; rw, modicon 5417, reference 405417 */
 #define HITACHI_L200_CURRENT_LIMIT_LEVEL_SET_2_ADDRESS 0x1528U
@@ -2893,12 +2335,6 @@ FIELDSCRIBE_STATUS hitachi_l200_current_limit_level_set_2_check(uint16_t raw)
 FIELDSCRIBE_STATUS hitachi_l200_current_limit_level_set_2_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 1000, 15000, raw); }
 static inline int32_t hitachi_l200_current_limit_level_set_2_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_current_limit_level_set_2_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 100, 1000, 15000, raw); }
-static inline fieldscribe_real hitachi_l200_current_limit_level_set_2_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 100); }
-#endif
 
 /* b023 current limit time: 0.1..30 s; 0.1 s a count; rw, modicon 4279, reference 404279 */
 #define HITACHI_L200_CURRENT_LIMIT_TIME_ADDRESS 0x10B6U
@@ -2909,12 +2345,6 @@ FIELDSCRIBE_STATUS hitachi_l200_current_limit_time_check(uint16_t raw) { return 
 FIELDSCRIBE_STATUS hitachi_l200_current_limit_time_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 1, 300, raw); }
 static inline int32_t hitachi_l200_current_limit_time_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_current_limit_time_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 1, 300, raw); }
-static inline fieldscribe_real hitachi_l200_current_limit_time_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* b223 current limit time set 2: 0.1..30 s; 0.1 s a count; rw, modicon 5418, reference 405418 */
 #define HITACHI_L200_CURRENT_LIMIT_TIME_SET_2_ADDRESS 0x1529U
@@ -2925,20 +2355,12 @@ FIELDSCRIBE_STATUS hitachi_l200_current_limit_time_set_2_check(uint16_t raw) { r
 FIELDSCRIBE_STATUS hitachi_l200_current_limit_time_set_2_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 1, 300, raw); }
 static inline int32_t hitachi_l200_current_limit_time_set_2_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_current_limit_time_set_2_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 1, 300, raw); }
-static inline fieldscribe_real hitachi_l200_current_limit_time_set_2_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 enum {
     HITACHI_L200_CURRENT_LIMIT_SOURCE_PARAMETER = 0,
     HITACHI_L200_CURRENT_LIMIT_SOURCE_TERMINAL_O = 1,
 };
-static const char *const hitachi_l200_current_limit_source_names[] = {
-    "parameter", "terminal_o"
-};
+static const char *const hitachi_l200_current_limit_source_names[] = {"parameter", "terminal_o"};
 static inline const char *hitachi_l200_current_limit_source_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_current_limit_source_names, raw); }
 
@@ -3005,11 +2427,6 @@ FIELDSCRIBE_STATUS hitachi_l200_start_frequency_check(uint16_t raw) { return fie
 FIELDSCRIBE_STATUS hitachi_l200_start_frequency_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 5, 99, raw); }
 static inline int32_t hitachi_l200_start_frequency_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_start_frequency_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 5, 99, raw); }
-static inline fieldscribe_real hitachi_l200_start_frequency_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* b083 carrier frequency: 2..14 kHz; 0.1 kHz a count; rw, modicon 4306, reference 404306; erratum b083_unit */
 #define HITACHI_L200_CARRIER_FREQUENCY_ADDRESS 0x10D1U
@@ -3020,12 +2437,6 @@ FIELDSCRIBE_STATUS hitachi_l200_carrier_frequency_check(uint16_t raw) { return f
 FIELDSCRIBE_STATUS hitachi_l200_carrier_frequency_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 20, 140, raw); }
 static inline int32_t hitachi_l200_carrier_frequency_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_carrier_frequency_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 20, 140, raw); }
-static inline fieldscribe_real hitachi_l200_carrier_frequency_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 enum {
     HITACHI_L200_INITIALIZATION_MODE_CLEAR_TRIPS = 0,
@@ -3062,20 +2473,12 @@ FIELDSCRIBE_STATUS hitachi_l200_frequency_display_factor_check(uint16_t raw) { r
 FIELDSCRIBE_STATUS hitachi_l200_frequency_display_factor_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 1, 999, raw); }
 static inline int32_t hitachi_l200_frequency_display_factor_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_frequency_display_factor_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 1, 999, raw); }
-static inline fieldscribe_real hitachi_l200_frequency_display_factor_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 enum {
     HITACHI_L200_STOP_KEY_LOCK_KEY_ACTIVE = 0,
     HITACHI_L200_STOP_KEY_LOCK_KEY_INACTIVE = 1,
 };
-static const char *const hitachi_l200_stop_key_lock_names[] = {
-    "key_active", "key_inactive"
-};
+static const char *const hitachi_l200_stop_key_lock_names[] = {"key_active", "key_inactive"};
 static inline const char *hitachi_l200_stop_key_lock_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_stop_key_lock_names, raw); }
 
@@ -3093,9 +2496,7 @@ enum {
     HITACHI_L200_COAST_RESTART_MODE_START_AT_0_HZ = 0,
     HITACHI_L200_COAST_RESTART_MODE_SYNCHRONIZE = 1,
 };
-static const char *const hitachi_l200_coast_restart_mode_names[] = {
-    "start_at_0_hz", "synchronize"
-};
+static const char *const hitachi_l200_coast_restart_mode_names[] = {"start_at_0_hz", "synchronize"};
 static inline const char *hitachi_l200_coast_restart_mode_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_coast_restart_mode_names, raw); }
 
@@ -3147,9 +2548,7 @@ enum {
     HITACHI_L200_STOP_MODE_RAMP = 0,
     HITACHI_L200_STOP_MODE_COAST = 1,
 };
-static const char *const hitachi_l200_stop_mode_names[] = {
-    "ramp", "coast"
-};
+static const char *const hitachi_l200_stop_mode_names[] = {"ramp", "coast"};
 static inline const char *hitachi_l200_stop_mode_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_stop_mode_names, raw); }
 
@@ -3376,9 +2775,7 @@ enum {
     HITACHI_L200_CONTACT_NORMALLY_OPEN = 0,
     HITACHI_L200_CONTACT_NORMALLY_CLOSED = 1,
 };
-static const char *const hitachi_l200_contact_names[] = {
-    "normally_open", "normally_closed"
-};
+static const char *const hitachi_l200_contact_names[] = {"normally_open", "normally_closed"};
 static inline const char *hitachi_l200_contact_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_contact_names, raw); }
 
@@ -3472,9 +2869,7 @@ enum {
     HITACHI_L200_ANALOG_OUTPUT_SOURCE_OUTPUT_FREQUENCY = 0,
     HITACHI_L200_ANALOG_OUTPUT_SOURCE_MOTOR_CURRENT = 1,
 };
-static const char *const hitachi_l200_analog_output_source_names[] = {
-    "output_frequency", "motor_current"
-};
+static const char *const hitachi_l200_analog_output_source_names[] = {"output_frequency", "motor_current"};
 static inline const char *hitachi_l200_analog_output_source_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_analog_output_source_names, raw); }
 
@@ -3527,12 +2922,6 @@ FIELDSCRIBE_STATUS hitachi_l200_overload_alarm_level_check(uint16_t raw) { retur
 FIELDSCRIBE_STATUS hitachi_l200_overload_alarm_level_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 20000, raw); }
 static inline int32_t hitachi_l200_overload_alarm_level_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_overload_alarm_level_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 100, 0, 20000, raw); }
-static inline fieldscribe_real hitachi_l200_overload_alarm_level_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 100); }
-#endif
 
 /* C241 overload alarm level set 2: 0..200 %; 0.01 % a count; rw, modicon 5433, reference 405433 */
 #define HITACHI_L200_OVERLOAD_ALARM_LEVEL_SET_2_ADDRESS 0x1538U
@@ -3544,12 +2933,6 @@ FIELDSCRIBE_STATUS hitachi_l200_overload_alarm_level_set_2_check(uint16_t raw)
 FIELDSCRIBE_STATUS hitachi_l200_overload_alarm_level_set_2_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 20000, raw); }
 static inline int32_t hitachi_l200_overload_alarm_level_set_2_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_overload_alarm_level_set_2_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 100, 0, 20000, raw); }
-static inline fieldscribe_real hitachi_l200_overload_alarm_level_set_2_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 100); }
-#endif
 
 /* C042 arrival frequency acceleration: 0..400 Hz; 0.1 Hz a count; rw, modicon 4390, reference 404390 */
 #define HITACHI_L200_ARRIVAL_FREQUENCY_ACCELERATION_ADDRESS 0x1125U
@@ -3561,12 +2944,6 @@ FIELDSCRIBE_STATUS hitachi_l200_arrival_frequency_acceleration_check(uint16_t ra
 FIELDSCRIBE_STATUS hitachi_l200_arrival_frequency_acceleration_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_arrival_frequency_acceleration_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_arrival_frequency_acceleration_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_arrival_frequency_acceleration_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* C043 arrival frequency deceleration: 0..400 Hz; 0.1 Hz a count; rw, modicon 4392, reference 404392 */
 #define HITACHI_L200_ARRIVAL_FREQUENCY_DECELERATION_ADDRESS 0x1127U
@@ -3578,12 +2955,6 @@ FIELDSCRIBE_STATUS hitachi_l200_arrival_frequency_deceleration_check(uint16_t ra
 FIELDSCRIBE_STATUS hitachi_l200_arrival_frequency_deceleration_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 4000, raw); }
 static inline int32_t hitachi_l200_arrival_frequency_deceleration_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_arrival_frequency_deceleration_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
-static inline fieldscribe_real hitachi_l200_arrival_frequency_deceleration_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* C044 pid deviation level: 0..100 %; 0.1 % a count; rw, modicon 4393, reference 404393 */
 #define HITACHI_L200_PID_DEVIATION_LEVEL_ADDRESS 0x1128U
@@ -3594,12 +2965,6 @@ FIELDSCRIBE_STATUS hitachi_l200_pid_deviation_level_check(uint16_t raw) { return
 FIELDSCRIBE_STATUS hitachi_l200_pid_deviation_level_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 1000, raw); }
 static inline int32_t hitachi_l200_pid_deviation_level_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_pid_deviation_level_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 1000, raw); }
-static inline fieldscribe_real hitachi_l200_pid_deviation_level_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* C052 pid process value upper limit: 0..100 %; 0.1 % a count; rw, modicon 4398, reference 404398 */
 #define HITACHI_L200_PID_PROCESS_VALUE_UPPER_LIMIT_ADDRESS 0x112DU
@@ -3611,12 +2976,6 @@ FIELDSCRIBE_STATUS hitachi_l200_pid_process_value_upper_limit_check(uint16_t raw
 FIELDSCRIBE_STATUS hitachi_l200_pid_process_value_upper_limit_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 1000, raw); }
 static inline int32_t hitachi_l200_pid_process_value_upper_limit_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_pid_process_value_upper_limit_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 1000, raw); }
-static inline fieldscribe_real hitachi_l200_pid_process_value_upper_limit_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* C053 pid process value lower limit: 0..100 %; 0.1 % a count; rw, modicon 4399, reference 404399 */
 #define HITACHI_L200_PID_PROCESS_VALUE_LOWER_LIMIT_ADDRESS 0x112EU
@@ -3628,12 +2987,6 @@ FIELDSCRIBE_STATUS hitachi_l200_pid_process_value_lower_limit_check(uint16_t raw
 FIELDSCRIBE_STATUS hitachi_l200_pid_process_value_lower_limit_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 1000, raw); }
 static inline int32_t hitachi_l200_pid_process_value_lower_limit_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_pid_process_value_lower_limit_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 1000, raw); }
-static inline fieldscribe_real hitachi_l200_pid_process_value_lower_limit_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /*
  * C071 baud rate: 4..6; none, modicon 4408, reference 404408; the manual leaves open whether a read of it is answered
@@ -3686,12 +3039,6 @@ FIELDSCRIBE_STATUS hitachi_l200_input_o_calibration_check(uint16_t raw) { return
 FIELDSCRIBE_STATUS hitachi_l200_input_o_calibration_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 2000, raw); }
 static inline int32_t hitachi_l200_input_o_calibration_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_input_o_calibration_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 2000, raw); }
-static inline fieldscribe_real hitachi_l200_input_o_calibration_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* C082 input oi calibration: 0..200 %; 0.1 % a count; rw, modicon 4418, reference 404418 */
 #define HITACHI_L200_INPUT_OI_CALIBRATION_ADDRESS 0x1141U
@@ -3702,12 +3049,6 @@ FIELDSCRIBE_STATUS hitachi_l200_input_oi_calibration_check(uint16_t raw) { retur
 FIELDSCRIBE_STATUS hitachi_l200_input_oi_calibration_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 2000, raw); }
 static inline int32_t hitachi_l200_input_oi_calibration_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_input_oi_calibration_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 2000, raw); }
-static inline fieldscribe_real hitachi_l200_input_oi_calibration_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* C085 thermistor input calibration: 0..200 %; 0.1 % a count; rw, modicon 4420, reference 404420 */
 #define HITACHI_L200_THERMISTOR_INPUT_CALIBRATION_ADDRESS 0x1143U
@@ -3719,12 +3060,6 @@ FIELDSCRIBE_STATUS hitachi_l200_thermistor_input_calibration_check(uint16_t raw)
 FIELDSCRIBE_STATUS hitachi_l200_thermistor_input_calibration_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 2000, raw); }
 static inline int32_t hitachi_l200_thermistor_input_calibration_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_thermistor_input_calibration_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 2000, raw); }
-static inline fieldscribe_real hitachi_l200_thermistor_input_calibration_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* C086 analog output offset: 0..10 V; 0.1 V a count; rw, modicon 4421, reference 404421 */
 #define HITACHI_L200_ANALOG_OUTPUT_OFFSET_ADDRESS 0x1144U
@@ -3735,12 +3070,6 @@ FIELDSCRIBE_STATUS hitachi_l200_analog_output_offset_check(uint16_t raw) { retur
 FIELDSCRIBE_STATUS hitachi_l200_analog_output_offset_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 100, raw); }
 static inline int32_t hitachi_l200_analog_output_offset_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_analog_output_offset_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 100, raw); }
-static inline fieldscribe_real hitachi_l200_analog_output_offset_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /*
  * C091 debug mode: 0, 1; none, modicon 4424, reference 404424; the manual leaves open whether a read of it is answered
@@ -3751,9 +3080,7 @@ enum {
     HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_DISCARD = 0,
     HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_KEEP = 1,
 };
-static const char *const hitachi_l200_motor_potentiometer_memory_names[] = {
-    "discard", "keep"
-};
+static const char *const hitachi_l200_motor_potentiometer_memory_names[] = {"discard", "keep"};
 static inline const char *hitachi_l200_motor_potentiometer_memory_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_motor_potentiometer_memory_names, raw); }
 
@@ -3772,9 +3099,7 @@ enum {
     HITACHI_L200_RESET_MODE_FALLING_EDGE = 1,
     HITACHI_L200_RESET_MODE_RISING_EDGE_WHEN_TRIPPED = 2,
 };
-static const char *const hitachi_l200_reset_mode_names[] = {
-    "rising_edge", "falling_edge", "rising_edge_when_tripped"
-};
+static const char *const hitachi_l200_reset_mode_names[] = {"rising_edge", "falling_edge", "rising_edge_when_tripped"};
 static inline const char *hitachi_l200_reset_mode_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_reset_mode_names, raw); }
 
@@ -3817,9 +3142,7 @@ enum {
     HITACHI_L200_LOGIC_OPERATOR_LOGIC_OR = 1,
     HITACHI_L200_LOGIC_OPERATOR_LOGIC_XOR = 2,
 };
-static const char *const hitachi_l200_logic_operator_names[] = {
-    "logic_and", "logic_or", "logic_xor"
-};
+static const char *const hitachi_l200_logic_operator_names[] = {"logic_and", "logic_or", "logic_xor"};
 static inline const char *hitachi_l200_logic_operator_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(hitachi_l200_logic_operator_names, raw); }
 
@@ -3843,12 +3166,6 @@ FIELDSCRIBE_STATUS hitachi_l200_digital_output_11_on_delay_check(uint16_t raw)
 FIELDSCRIBE_STATUS hitachi_l200_digital_output_11_on_delay_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 1000, raw); }
 static inline int32_t hitachi_l200_digital_output_11_on_delay_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_digital_output_11_on_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 1000, raw); }
-static inline fieldscribe_real hitachi_l200_digital_output_11_on_delay_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* C145 digital output 11 off delay: 0..100 s; 0.1 s a count; rw, modicon 4436, reference 404436 */
 #define HITACHI_L200_DIGITAL_OUTPUT_11_OFF_DELAY_ADDRESS 0x1153U
@@ -3860,12 +3177,6 @@ FIELDSCRIBE_STATUS hitachi_l200_digital_output_11_off_delay_check(uint16_t raw)
 FIELDSCRIBE_STATUS hitachi_l200_digital_output_11_off_delay_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 1000, raw); }
 static inline int32_t hitachi_l200_digital_output_11_off_delay_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_digital_output_11_off_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 1000, raw); }
-static inline fieldscribe_real hitachi_l200_digital_output_11_off_delay_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* C146 digital output 12 on delay: 0..100 s; 0.1 s a count; rw, modicon 4437, reference 404437 */
 #define HITACHI_L200_DIGITAL_OUTPUT_12_ON_DELAY_ADDRESS 0x1154U
@@ -3877,12 +3188,6 @@ FIELDSCRIBE_STATUS hitachi_l200_digital_output_12_on_delay_check(uint16_t raw)
 FIELDSCRIBE_STATUS hitachi_l200_digital_output_12_on_delay_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 1000, raw); }
 static inline int32_t hitachi_l200_digital_output_12_on_delay_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_digital_output_12_on_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 1000, raw); }
-static inline fieldscribe_real hitachi_l200_digital_output_12_on_delay_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* C147 digital output 12 off delay: 0..100 s; 0.1 s a count; rw, modicon 4438, reference 404438 */
 #define HITACHI_L200_DIGITAL_OUTPUT_12_OFF_DELAY_ADDRESS 0x1155U
@@ -3894,12 +3199,6 @@ FIELDSCRIBE_STATUS hitachi_l200_digital_output_12_off_delay_check(uint16_t raw)
 FIELDSCRIBE_STATUS hitachi_l200_digital_output_12_off_delay_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 1000, raw); }
 static inline int32_t hitachi_l200_digital_output_12_off_delay_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_digital_output_12_off_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 1000, raw); }
-static inline fieldscribe_real hitachi_l200_digital_output_12_off_delay_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* C148 relay output on delay: 0..100 s; 0.1 s a count; rw, modicon 4439, reference 404439 */
 #define HITACHI_L200_RELAY_OUTPUT_ON_DELAY_ADDRESS 0x1156U
@@ -3910,12 +3209,6 @@ FIELDSCRIBE_STATUS hitachi_l200_relay_output_on_delay_check(uint16_t raw) { retu
 FIELDSCRIBE_STATUS hitachi_l200_relay_output_on_delay_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 1000, raw); }
 static inline int32_t hitachi_l200_relay_output_on_delay_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_relay_output_on_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 1000, raw); }
-static inline fieldscribe_real hitachi_l200_relay_output_on_delay_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* C149 relay output off delay: 0..100 s; 0.1 s a count; rw, modicon 4440, reference 404440 */
 #define HITACHI_L200_RELAY_OUTPUT_OFF_DELAY_ADDRESS 0x1157U
@@ -3926,12 +3219,6 @@ FIELDSCRIBE_STATUS hitachi_l200_relay_output_off_delay_check(uint16_t raw) { ret
 FIELDSCRIBE_STATUS hitachi_l200_relay_output_off_delay_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 1000, raw); }
 static inline int32_t hitachi_l200_relay_output_off_delay_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS hitachi_l200_relay_output_off_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 1000, raw); }
-static inline fieldscribe_real hitachi_l200_relay_output_off_delay_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* ---- motor h (holding) ---- */
 
@@ -4039,5 +3326,415 @@ FIELDSCRIBE_STATUS hitachi_l200_stabilization_constant_set_2_check(uint16_t raw)
 FIELDSCRIBE_STATUS hitachi_l200_stabilization_constant_set_2_encode(int32_t value, uint16_t *raw)
 { return fieldscribe_encode_u16(value, 0, 255, raw); }
 static inline int32_t hitachi_l200_stabilization_constant_set_2_decode(uint16_t raw) { return raw; }
+
+/* ---- Values in floating point ---- */
+
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_network_frequency_setpoint_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_network_frequency_setpoint_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_network_process_value_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 1000, raw); }
+static inline fieldscribe_real hitachi_l200_network_process_value_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+static inline fieldscribe_real hitachi_l200_output_frequency_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
+static inline fieldscribe_real hitachi_l200_motor_current_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
+static inline double hitachi_l200_scaled_process_value_decode(uint32_t raw) { return fieldscribe_ratio_wide(raw, 100); }
+static inline fieldscribe_real hitachi_l200_output_voltage_decode(uint16_t raw) { return fieldscribe_ratio(raw, 100); }
+static inline fieldscribe_real hitachi_l200_trip_1_output_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+static inline fieldscribe_real hitachi_l200_trip_1_motor_current_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+static inline fieldscribe_real hitachi_l200_trip_1_dc_bus_voltage_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+static inline fieldscribe_real hitachi_l200_trip_2_output_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+static inline fieldscribe_real hitachi_l200_trip_2_motor_current_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+static inline fieldscribe_real hitachi_l200_trip_2_dc_bus_voltage_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+static inline fieldscribe_real hitachi_l200_trip_3_output_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+static inline fieldscribe_real hitachi_l200_trip_3_motor_current_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+static inline fieldscribe_real hitachi_l200_trip_3_dc_bus_voltage_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_acceleration_time_encode(double value, uint32_t *raw)
+{ return fieldscribe_round_u32(fieldscribe_times_wide(value, 100), 1, 300000, raw); }
+static inline double hitachi_l200_acceleration_time_decode(uint32_t raw) { return fieldscribe_ratio_wide(raw, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_acceleration_time_set_2_encode(double value, uint32_t *raw)
+{ return fieldscribe_round_u32(fieldscribe_times_wide(value, 100), 1, 300000, raw); }
+static inline double hitachi_l200_acceleration_time_set_2_decode(uint32_t raw)
+{ return fieldscribe_ratio_wide(raw, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_deceleration_time_encode(double value, uint32_t *raw)
+{ return fieldscribe_round_u32(fieldscribe_times_wide(value, 100), 1, 300000, raw); }
+static inline double hitachi_l200_deceleration_time_decode(uint32_t raw) { return fieldscribe_ratio_wide(raw, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_deceleration_time_set_2_encode(double value, uint32_t *raw)
+{ return fieldscribe_round_u32(fieldscribe_times_wide(value, 100), 1, 300000, raw); }
+static inline double hitachi_l200_deceleration_time_set_2_decode(uint32_t raw)
+{ return fieldscribe_ratio_wide(raw, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_input_o_minimum_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_input_o_minimum_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_input_o_maximum_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_input_o_maximum_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_base_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_base_frequency_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_base_frequency_set_2_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_base_frequency_set_2_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_1_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_1_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_2_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_2_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_3_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_3_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_4_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_4_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_5_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_5_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_6_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_6_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_7_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_7_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_8_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_8_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_9_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_9_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_10_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_10_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_11_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_11_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_12_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_12_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_13_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_13_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_14_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_14_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_15_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_15_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_jog_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 100), 0, 999, raw); }
+static inline fieldscribe_real hitachi_l200_jog_frequency_decode(uint16_t raw) { return fieldscribe_ratio(raw, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_manual_boost_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 200, raw); }
+static inline fieldscribe_real hitachi_l200_manual_boost_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_manual_boost_set_2_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 200, raw); }
+static inline fieldscribe_real hitachi_l200_manual_boost_set_2_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_manual_boost_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 500, raw); }
+static inline fieldscribe_real hitachi_l200_manual_boost_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_manual_boost_frequency_set_2_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 500, raw); }
+static inline fieldscribe_real hitachi_l200_manual_boost_frequency_set_2_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_dc_brake_frequency_encode(
+    fieldscribe_real value, uint16_t start_frequency_raw, uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_rounded(fieldscribe_times(value, 10),
+        HITACHI_L200_DC_BRAKE_FREQUENCY_RAW_MIN, HITACHI_L200_DC_BRAKE_FREQUENCY_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        hitachi_l200_dc_brake_frequency_check((uint16_t)whole.number, start_frequency_raw)), (uint16_t)whole.number,
+        raw);
+}
+static inline fieldscribe_real hitachi_l200_dc_brake_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_dc_brake_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 50, raw); }
+static inline fieldscribe_real hitachi_l200_dc_brake_delay_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_dc_brake_time_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 600, raw); }
+static inline fieldscribe_real hitachi_l200_dc_brake_time_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_encode(
+    fieldscribe_real value, const hitachi_l200_with_lower_frequency_limit_and_maximum_frequency *with, uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_rounded(fieldscribe_times(value, 10),
+        HITACHI_L200_UPPER_FREQUENCY_LIMIT_RAW_MIN, HITACHI_L200_UPPER_FREQUENCY_LIMIT_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        (hitachi_l200_upper_frequency_limit_is_special((uint16_t)whole.number) ? FIELDSCRIBE_SPECIAL
+        : hitachi_l200_upper_frequency_limit_check((uint16_t)whole.number, with))), (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_decode(uint16_t raw, fieldscribe_real *value)
+{
+    return fieldscribe_keep_real(hitachi_l200_upper_frequency_limit_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : FIELDSCRIBE_OK, fieldscribe_ratio(raw, 10), value);
+}
+FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_set_2_encode(
+    fieldscribe_real value, const hitachi_l200_with_lower_frequency_limit_set_2_and_maximum_frequency_set_2 *with,
+    uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_rounded(fieldscribe_times(value, 10),
+        HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_RAW_MIN, HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        (hitachi_l200_upper_frequency_limit_set_2_is_special((uint16_t)whole.number) ? FIELDSCRIBE_SPECIAL
+        : hitachi_l200_upper_frequency_limit_set_2_check((uint16_t)whole.number, with))), (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_set_2_decode(uint16_t raw, fieldscribe_real *value)
+{
+    return fieldscribe_keep_real(hitachi_l200_upper_frequency_limit_set_2_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : FIELDSCRIBE_OK, fieldscribe_ratio(raw, 10), value);
+}
+FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_encode(
+    fieldscribe_real value, const hitachi_l200_with_start_frequency_and_upper_frequency_limit *with, uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_rounded(fieldscribe_times(value, 10), 0, 4000);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        (hitachi_l200_lower_frequency_limit_is_special((uint16_t)whole.number) ? FIELDSCRIBE_SPECIAL
+        : hitachi_l200_lower_frequency_limit_check((uint16_t)whole.number, with))), (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_decode(uint16_t raw, fieldscribe_real *value)
+{
+    return fieldscribe_keep_real(hitachi_l200_lower_frequency_limit_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : FIELDSCRIBE_OK, fieldscribe_ratio(raw, 10), value);
+}
+FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_set_2_encode(
+    fieldscribe_real value, const hitachi_l200_with_start_frequency_and_upper_frequency_limit_set_2 *with,
+    uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_rounded(fieldscribe_times(value, 10), 0, 4000);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        (hitachi_l200_lower_frequency_limit_set_2_is_special((uint16_t)whole.number) ? FIELDSCRIBE_SPECIAL
+        : hitachi_l200_lower_frequency_limit_set_2_check((uint16_t)whole.number, with))), (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_set_2_decode(uint16_t raw, fieldscribe_real *value)
+{
+    return fieldscribe_keep_real(hitachi_l200_lower_frequency_limit_set_2_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : FIELDSCRIBE_OK, fieldscribe_ratio(raw, 10), value);
+}
+FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_1_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_jump_frequency_1_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_1_width_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 100, raw); }
+static inline fieldscribe_real hitachi_l200_jump_frequency_1_width_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_2_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_jump_frequency_2_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_2_width_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 100, raw); }
+static inline fieldscribe_real hitachi_l200_jump_frequency_2_width_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_3_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_jump_frequency_3_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_3_width_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 100, raw); }
+static inline fieldscribe_real hitachi_l200_jump_frequency_3_width_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_pid_proportional_gain_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 2, 50, raw); }
+static inline fieldscribe_real hitachi_l200_pid_proportional_gain_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_pid_integral_time_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 1500, raw); }
+static inline fieldscribe_real hitachi_l200_pid_integral_time_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_pid_derivative_time_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 1000, raw); }
+static inline fieldscribe_real hitachi_l200_pid_derivative_time_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_pid_display_factor_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 100), 1, 9999, raw); }
+static inline fieldscribe_real hitachi_l200_pid_display_factor_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_pid_output_limit_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 1000, raw); }
+static inline fieldscribe_real hitachi_l200_pid_output_limit_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_acceleration_time_2_encode(double value, uint32_t *raw)
+{ return fieldscribe_round_u32(fieldscribe_times_wide(value, 100), 1, 300000, raw); }
+static inline double hitachi_l200_acceleration_time_2_decode(uint32_t raw) { return fieldscribe_ratio_wide(raw, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_deceleration_time_2_encode(double value, uint32_t *raw)
+{ return fieldscribe_round_u32(fieldscribe_times_wide(value, 100), 1, 300000, raw); }
+static inline double hitachi_l200_deceleration_time_2_decode(uint32_t raw) { return fieldscribe_ratio_wide(raw, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_deceleration_time_2_set_2_encode(double value, uint32_t *raw)
+{ return fieldscribe_round_u32(fieldscribe_times_wide(value, 100), 1, 300000, raw); }
+static inline double hitachi_l200_deceleration_time_2_set_2_decode(uint32_t raw)
+{ return fieldscribe_ratio_wide(raw, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_acceleration_change_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_acceleration_change_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_acceleration_change_frequency_set_2_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_acceleration_change_frequency_set_2_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_deceleration_change_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_deceleration_change_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_deceleration_change_frequency_set_2_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_deceleration_change_frequency_set_2_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_input_oi_minimum_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_input_oi_minimum_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_input_oi_maximum_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_input_oi_maximum_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_frequency_offset_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_frequency_offset_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_potentiometer_minimum_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_potentiometer_minimum_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_potentiometer_maximum_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_potentiometer_maximum_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_allowed_power_failure_time_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 3, 250, raw); }
+static inline fieldscribe_real hitachi_l200_allowed_power_failure_time_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_restart_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 3, 1000, raw); }
+static inline fieldscribe_real hitachi_l200_restart_delay_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_motor_protection_level_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 100), 2000, 12000, raw); }
+static inline fieldscribe_real hitachi_l200_motor_protection_level_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_motor_protection_level_set_2_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 100), 2000, 12000, raw); }
+static inline fieldscribe_real hitachi_l200_motor_protection_level_set_2_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_current_limit_level_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 100), 1000, 15000, raw); }
+static inline fieldscribe_real hitachi_l200_current_limit_level_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_current_limit_level_set_2_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 100), 1000, 15000, raw); }
+static inline fieldscribe_real hitachi_l200_current_limit_level_set_2_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_current_limit_time_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 1, 300, raw); }
+static inline fieldscribe_real hitachi_l200_current_limit_time_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_current_limit_time_set_2_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 1, 300, raw); }
+static inline fieldscribe_real hitachi_l200_current_limit_time_set_2_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_start_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 5, 99, raw); }
+static inline fieldscribe_real hitachi_l200_start_frequency_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_carrier_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 20, 140, raw); }
+static inline fieldscribe_real hitachi_l200_carrier_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_frequency_display_factor_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 1, 999, raw); }
+static inline fieldscribe_real hitachi_l200_frequency_display_factor_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_overload_alarm_level_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 100), 0, 20000, raw); }
+static inline fieldscribe_real hitachi_l200_overload_alarm_level_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_overload_alarm_level_set_2_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 100), 0, 20000, raw); }
+static inline fieldscribe_real hitachi_l200_overload_alarm_level_set_2_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_arrival_frequency_acceleration_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_arrival_frequency_acceleration_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_arrival_frequency_deceleration_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_arrival_frequency_deceleration_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_pid_deviation_level_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 1000, raw); }
+static inline fieldscribe_real hitachi_l200_pid_deviation_level_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_pid_process_value_upper_limit_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 1000, raw); }
+static inline fieldscribe_real hitachi_l200_pid_process_value_upper_limit_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_pid_process_value_lower_limit_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 1000, raw); }
+static inline fieldscribe_real hitachi_l200_pid_process_value_lower_limit_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_input_o_calibration_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 2000, raw); }
+static inline fieldscribe_real hitachi_l200_input_o_calibration_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_input_oi_calibration_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 2000, raw); }
+static inline fieldscribe_real hitachi_l200_input_oi_calibration_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_thermistor_input_calibration_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 2000, raw); }
+static inline fieldscribe_real hitachi_l200_thermistor_input_calibration_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_analog_output_offset_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 100, raw); }
+static inline fieldscribe_real hitachi_l200_analog_output_offset_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_digital_output_11_on_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 1000, raw); }
+static inline fieldscribe_real hitachi_l200_digital_output_11_on_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_digital_output_11_off_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 1000, raw); }
+static inline fieldscribe_real hitachi_l200_digital_output_11_off_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_digital_output_12_on_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 1000, raw); }
+static inline fieldscribe_real hitachi_l200_digital_output_12_on_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_digital_output_12_off_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 1000, raw); }
+static inline fieldscribe_real hitachi_l200_digital_output_12_off_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_relay_output_on_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 1000, raw); }
+static inline fieldscribe_real hitachi_l200_relay_output_on_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_relay_output_off_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 1000, raw); }
+static inline fieldscribe_real hitachi_l200_relay_output_off_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+#endif
 
 #endif

@@ -14,7 +14,7 @@
 #ifndef HITACHI_L200_MODBUS_H
 #define HITACHI_L200_MODBUS_H
 
-#if FIELDSCRIBE_MODBUS_INTERFACE != 6
+#if FIELDSCRIBE_MODBUS_INTERFACE != 7
 #error "fieldscribe_modbus_facts.h is of another version: take the one that was generated with this header."
 #endif
 #if HITACHI_L200_DESCRIPTION != 0x41c63c2aU
@@ -217,8 +217,7 @@ typedef struct hitachi_l200_coils_group {
 static inline void hitachi_l200_coils_group_decode(
     size_t block, const uint16_t *words, hitachi_l200_coils_group *group)
 {
-    switch (block) {
-    case 0U:
+    if (block == 0U) {
         group->run_command_raw = words[0] != 0U;
         group->direction_command_raw = words[1] != 0U;
         group->external_trip_raw = words[2] != 0U;
@@ -228,8 +227,8 @@ static inline void hitachi_l200_coils_group_decode(
         group->digital_input_3_raw = words[8] != 0U;
         group->digital_input_4_raw = words[9] != 0U;
         group->digital_input_5_raw = words[10] != 0U;
-        break;
-    case 1U:
+    }
+    if (block == 1U) {
         group->running_raw = words[0] != 0U;
         group->direction_status_raw = words[1] != 0U;
         group->ready_raw = words[2] != 0U;
@@ -245,9 +244,6 @@ static inline void hitachi_l200_coils_group_decode(
         group->framing_error_raw = words[15] != 0U;
         group->parity_error_raw = words[16] != 0U;
         group->checksum_error_raw = words[17] != 0U;
-        break;
-    default:
-        break; /* there is no such block */
     }
 }
 
@@ -260,16 +256,12 @@ typedef struct hitachi_l200_status_group {
 static inline void hitachi_l200_status_group_decode(
     size_t block, const uint16_t *words, hitachi_l200_status_group *group)
 {
-    switch (block) {
-    case 0U:
+    if (block == 0U) {
         group->network_frequency_setpoint_count = hitachi_l200_network_frequency_setpoint_decode_count(words[0]);
         group->inverter_status_raw = words[1];
-        break;
-    case 1U:
+    }
+    if (block == 1U) {
         group->network_process_value_count = hitachi_l200_network_process_value_decode_count(words[0]);
-        break;
-    default:
-        break; /* there is no such block */
     }
 }
 
@@ -307,66 +299,62 @@ typedef struct hitachi_l200_monitor_d_group {
 static inline void hitachi_l200_monitor_d_group_decode(
     size_t block, const uint16_t *words, hitachi_l200_monitor_d_group *group)
 {
-    switch (block) {
-    case 0U:
+    if (block == 0U) {
         group->trip_count_raw = words[0];
         group->trip_1_error_raw = words[1];
-        break;
-    case 1U:
+    }
+    if (block == 1U) {
         group->trip_1_output_frequency_count = hitachi_l200_trip_1_output_frequency_decode_count(words[0]);
-        break;
-    case 2U:
+    }
+    if (block == 2U) {
         group->trip_1_motor_current_count = hitachi_l200_trip_1_motor_current_decode_count(words[0]);
         group->trip_1_dc_bus_voltage_count = hitachi_l200_trip_1_dc_bus_voltage_decode_count(words[1]);
         group->trip_1_run_time_raw = hitachi_l200_trip_1_run_time_from_words(&words[2]);
-        break;
-    case 3U:
+    }
+    if (block == 3U) {
         group->trip_1_power_on_time_raw = hitachi_l200_trip_1_power_on_time_from_words(&words[0]);
         group->trip_2_error_raw = words[2];
-        break;
-    case 4U:
+    }
+    if (block == 4U) {
         group->trip_2_output_frequency_count = hitachi_l200_trip_2_output_frequency_decode_count(words[0]);
-        break;
-    case 5U:
+    }
+    if (block == 5U) {
         group->trip_2_motor_current_count = hitachi_l200_trip_2_motor_current_decode_count(words[0]);
         group->trip_2_dc_bus_voltage_count = hitachi_l200_trip_2_dc_bus_voltage_decode_count(words[1]);
         group->trip_2_run_time_raw = hitachi_l200_trip_2_run_time_from_words(&words[2]);
-        break;
-    case 6U:
+    }
+    if (block == 6U) {
         group->trip_2_power_on_time_raw = hitachi_l200_trip_2_power_on_time_from_words(&words[0]);
         group->trip_3_error_raw = words[2];
-        break;
-    case 7U:
+    }
+    if (block == 7U) {
         group->trip_3_output_frequency_count = hitachi_l200_trip_3_output_frequency_decode_count(words[0]);
-        break;
-    case 8U:
+    }
+    if (block == 8U) {
         group->trip_3_motor_current_count = hitachi_l200_trip_3_motor_current_decode_count(words[0]);
         group->trip_3_dc_bus_voltage_count = hitachi_l200_trip_3_dc_bus_voltage_decode_count(words[1]);
         group->trip_3_run_time_raw = hitachi_l200_trip_3_run_time_from_words(&words[2]);
-        break;
-    case 9U:
+    }
+    if (block == 9U) {
         group->trip_3_power_on_time_raw = hitachi_l200_trip_3_power_on_time_from_words(&words[0]);
-        break;
-    case 10U:
+    }
+    if (block == 10U) {
         group->output_frequency_count = hitachi_l200_output_frequency_decode_count(words[0]);
         group->motor_current_count = hitachi_l200_motor_current_decode_count(words[1]);
         group->rotation_direction_raw = words[2];
-        break;
-    case 11U:
+    }
+    if (block == 11U) {
         group->scaled_process_value_count = hitachi_l200_scaled_process_value_decode_count(
             hitachi_l200_scaled_process_value_from_words(&words[0]));
         group->digital_inputs_raw = words[2];
         group->digital_outputs_raw = words[3];
-        break;
-    case 12U:
+    }
+    if (block == 12U) {
         group->output_voltage_count = hitachi_l200_output_voltage_decode_count(words[0]);
-        break;
-    case 13U:
+    }
+    if (block == 13U) {
         group->run_time_raw = hitachi_l200_run_time_from_words(&words[0]);
         group->power_on_time_raw = hitachi_l200_power_on_time_from_words(&words[2]);
-        break;
-    default:
-        break; /* there is no such block */
     }
 }
 
@@ -381,24 +369,20 @@ typedef struct hitachi_l200_basic_f_group {
 static inline void hitachi_l200_basic_f_group_decode(
     size_t block, const uint16_t *words, hitachi_l200_basic_f_group *group)
 {
-    switch (block) {
-    case 0U:
+    if (block == 0U) {
         group->acceleration_time_count = hitachi_l200_acceleration_time_decode_count(
             hitachi_l200_acceleration_time_from_words(&words[0]));
         group->deceleration_time_count = hitachi_l200_deceleration_time_decode_count(
             hitachi_l200_deceleration_time_from_words(&words[2]));
-        break;
-    case 1U:
+    }
+    if (block == 1U) {
         group->motor_direction_raw = words[0];
-        break;
-    case 2U:
+    }
+    if (block == 2U) {
         group->acceleration_time_set_2_count = hitachi_l200_acceleration_time_set_2_decode_count(
             hitachi_l200_acceleration_time_set_2_from_words(&words[0]));
         group->deceleration_time_set_2_count = hitachi_l200_deceleration_time_set_2_decode_count(
             hitachi_l200_deceleration_time_set_2_from_words(&words[2]));
-        break;
-    default:
-        break; /* there is no such block */
     }
 }
 
@@ -504,210 +488,206 @@ typedef struct hitachi_l200_standard_a_group {
 static inline void hitachi_l200_standard_a_group_decode(
     size_t block, const uint16_t *words, hitachi_l200_standard_a_group *group)
 {
-    switch (block) {
-    case 0U:
+    if (block == 0U) {
         group->frequency_source_raw = words[0];
         group->run_source_raw = words[1];
         group->motor_rated_frequency_raw = words[2];
         group->maximum_frequency_raw = words[3];
-        break;
-    case 1U:
+    }
+    if (block == 1U) {
         group->at_terminal_selection_raw = words[0];
-        break;
-    case 2U:
+    }
+    if (block == 2U) {
         group->input_o_minimum_frequency_count = hitachi_l200_input_o_minimum_frequency_decode_count(words[0]);
-        break;
-    case 3U:
+    }
+    if (block == 3U) {
         group->input_o_maximum_frequency_count = hitachi_l200_input_o_maximum_frequency_decode_count(words[0]);
         group->input_o_minimum_setpoint_raw = words[1];
         group->input_o_maximum_setpoint_raw = words[2];
         group->input_o_start_condition_raw = words[3];
-        break;
-    case 4U:
+    }
+    if (block == 4U) {
         group->analog_input_filter_raw = words[0];
-        break;
-    case 5U:
+    }
+    if (block == 5U) {
         group->base_frequency_count = hitachi_l200_base_frequency_decode_count(words[0]);
-        break;
-    case 6U:
+    }
+    if (block == 6U) {
         group->fixed_frequency_1_count = hitachi_l200_fixed_frequency_1_decode_count(words[0]);
-        break;
-    case 7U:
+    }
+    if (block == 7U) {
         group->fixed_frequency_2_count = hitachi_l200_fixed_frequency_2_decode_count(words[0]);
-        break;
-    case 8U:
+    }
+    if (block == 8U) {
         group->fixed_frequency_3_count = hitachi_l200_fixed_frequency_3_decode_count(words[0]);
-        break;
-    case 9U:
+    }
+    if (block == 9U) {
         group->fixed_frequency_4_count = hitachi_l200_fixed_frequency_4_decode_count(words[0]);
-        break;
-    case 10U:
+    }
+    if (block == 10U) {
         group->fixed_frequency_5_count = hitachi_l200_fixed_frequency_5_decode_count(words[0]);
-        break;
-    case 11U:
+    }
+    if (block == 11U) {
         group->fixed_frequency_6_count = hitachi_l200_fixed_frequency_6_decode_count(words[0]);
-        break;
-    case 12U:
+    }
+    if (block == 12U) {
         group->fixed_frequency_7_count = hitachi_l200_fixed_frequency_7_decode_count(words[0]);
-        break;
-    case 13U:
+    }
+    if (block == 13U) {
         group->fixed_frequency_8_count = hitachi_l200_fixed_frequency_8_decode_count(words[0]);
-        break;
-    case 14U:
+    }
+    if (block == 14U) {
         group->fixed_frequency_9_count = hitachi_l200_fixed_frequency_9_decode_count(words[0]);
-        break;
-    case 15U:
+    }
+    if (block == 15U) {
         group->fixed_frequency_10_count = hitachi_l200_fixed_frequency_10_decode_count(words[0]);
-        break;
-    case 16U:
+    }
+    if (block == 16U) {
         group->fixed_frequency_11_count = hitachi_l200_fixed_frequency_11_decode_count(words[0]);
-        break;
-    case 17U:
+    }
+    if (block == 17U) {
         group->fixed_frequency_12_count = hitachi_l200_fixed_frequency_12_decode_count(words[0]);
-        break;
-    case 18U:
+    }
+    if (block == 18U) {
         group->fixed_frequency_13_count = hitachi_l200_fixed_frequency_13_decode_count(words[0]);
-        break;
-    case 19U:
+    }
+    if (block == 19U) {
         group->fixed_frequency_14_count = hitachi_l200_fixed_frequency_14_decode_count(words[0]);
-        break;
-    case 20U:
+    }
+    if (block == 20U) {
         group->fixed_frequency_15_count = hitachi_l200_fixed_frequency_15_decode_count(words[0]);
         group->jog_frequency_count = hitachi_l200_jog_frequency_decode_count(words[1]);
         group->jog_stop_mode_raw = words[2];
         group->boost_mode_raw = words[3];
-        break;
-    case 21U:
+    }
+    if (block == 21U) {
         group->manual_boost_count = hitachi_l200_manual_boost_decode_count(words[0]);
         group->manual_boost_frequency_count = hitachi_l200_manual_boost_frequency_decode_count(words[1]);
         group->vf_characteristic_raw = words[2];
         group->output_voltage_setting_raw = words[3];
-        break;
-    case 22U:
+    }
+    if (block == 22U) {
         group->dc_brake_enable_raw = words[0];
         group->dc_brake_frequency_count = hitachi_l200_dc_brake_frequency_decode_count(words[1]);
         group->dc_brake_delay_count = hitachi_l200_dc_brake_delay_decode_count(words[2]);
         group->dc_brake_torque_raw = words[3];
-        break;
-    case 23U:
+    }
+    if (block == 23U) {
         group->dc_brake_time_count = hitachi_l200_dc_brake_time_decode_count(words[0]);
         group->dc_brake_trigger_raw = words[1];
-        break;
-    case 24U:
+    }
+    if (block == 24U) {
         group->upper_frequency_limit_raw = words[0];
         group->lower_frequency_limit_raw = words[1];
-        break;
-    case 25U:
+    }
+    if (block == 25U) {
         group->jump_frequency_1_count = hitachi_l200_jump_frequency_1_decode_count(words[0]);
         group->jump_frequency_1_width_count = hitachi_l200_jump_frequency_1_width_decode_count(words[1]);
-        break;
-    case 26U:
+    }
+    if (block == 26U) {
         group->jump_frequency_2_count = hitachi_l200_jump_frequency_2_decode_count(words[0]);
         group->jump_frequency_2_width_count = hitachi_l200_jump_frequency_2_width_decode_count(words[1]);
-        break;
-    case 27U:
+    }
+    if (block == 27U) {
         group->jump_frequency_3_count = hitachi_l200_jump_frequency_3_decode_count(words[0]);
         group->jump_frequency_3_width_count = hitachi_l200_jump_frequency_3_width_decode_count(words[1]);
-        break;
-    case 28U:
+    }
+    if (block == 28U) {
         group->pid_enable_raw = words[0];
         group->pid_proportional_gain_count = hitachi_l200_pid_proportional_gain_decode_count(words[1]);
         group->pid_integral_time_count = hitachi_l200_pid_integral_time_decode_count(words[2]);
         group->pid_derivative_time_count = hitachi_l200_pid_derivative_time_decode_count(words[3]);
-        break;
-    case 29U:
+    }
+    if (block == 29U) {
         group->pid_display_factor_count = hitachi_l200_pid_display_factor_decode_count(words[0]);
         group->pid_process_value_source_raw = words[1];
         group->pid_inversion_raw = words[2];
         group->pid_output_limit_count = hitachi_l200_pid_output_limit_decode_count(words[3]);
-        break;
-    case 30U:
+    }
+    if (block == 30U) {
         group->avr_mode_raw = words[0];
         group->motor_voltage_raw = words[1];
-        break;
-    case 31U:
+    }
+    if (block == 31U) {
         group->acceleration_time_2_count = hitachi_l200_acceleration_time_2_decode_count(
             hitachi_l200_acceleration_time_2_from_words(&words[0]));
         group->deceleration_time_2_count = hitachi_l200_deceleration_time_2_decode_count(
             hitachi_l200_deceleration_time_2_from_words(&words[2]));
-        break;
-    case 32U:
+    }
+    if (block == 32U) {
         group->ramp_2_selection_raw = words[0];
-        break;
-    case 33U:
+    }
+    if (block == 33U) {
         group->acceleration_change_frequency_count = hitachi_l200_acceleration_change_frequency_decode_count(words[0]);
-        break;
-    case 34U:
+    }
+    if (block == 34U) {
         group->deceleration_change_frequency_count = hitachi_l200_deceleration_change_frequency_decode_count(words[0]);
         group->acceleration_curve_raw = words[1];
         group->deceleration_curve_raw = words[2];
-        break;
-    case 35U:
+    }
+    if (block == 35U) {
         group->input_oi_minimum_frequency_count = hitachi_l200_input_oi_minimum_frequency_decode_count(words[0]);
-        break;
-    case 36U:
+    }
+    if (block == 36U) {
         group->input_oi_maximum_frequency_count = hitachi_l200_input_oi_maximum_frequency_decode_count(words[0]);
         group->input_oi_minimum_setpoint_raw = words[1];
         group->input_oi_maximum_setpoint_raw = words[2];
         group->input_oi_start_condition_raw = words[3];
-        break;
-    case 37U:
+    }
+    if (block == 37U) {
         group->calculation_input_a_raw = words[0];
         group->calculation_input_b_raw = words[1];
         group->calculation_operator_raw = words[2];
         group->frequency_offset_count = hitachi_l200_frequency_offset_decode_count(words[3]);
-        break;
-    case 38U:
+    }
+    if (block == 38U) {
         group->frequency_offset_sign_raw = words[0];
-        break;
-    case 39U:
+    }
+    if (block == 39U) {
         group->potentiometer_minimum_frequency_count = hitachi_l200_potentiometer_minimum_frequency_decode_count(
             words[0]);
-        break;
-    case 40U:
+    }
+    if (block == 40U) {
         group->potentiometer_maximum_frequency_count = hitachi_l200_potentiometer_maximum_frequency_decode_count(
             words[0]);
         group->potentiometer_minimum_setpoint_raw = words[1];
         group->potentiometer_maximum_setpoint_raw = words[2];
         group->potentiometer_start_condition_raw = words[3];
-        break;
-    case 41U:
+    }
+    if (block == 41U) {
         group->frequency_source_set_2_raw = words[0];
         group->run_source_set_2_raw = words[1];
         group->motor_rated_frequency_set_2_raw = words[2];
         group->maximum_frequency_set_2_raw = words[3];
-        break;
-    case 42U:
+    }
+    if (block == 42U) {
         group->base_frequency_set_2_count = hitachi_l200_base_frequency_set_2_decode_count(words[0]);
         group->boost_mode_set_2_raw = words[1];
         group->manual_boost_set_2_count = hitachi_l200_manual_boost_set_2_decode_count(words[2]);
         group->manual_boost_frequency_set_2_count = hitachi_l200_manual_boost_frequency_set_2_decode_count(words[3]);
-        break;
-    case 43U:
+    }
+    if (block == 43U) {
         group->vf_characteristic_set_2_raw = words[0];
         group->output_voltage_setting_set_2_raw = words[1];
-        break;
-    case 44U:
+    }
+    if (block == 44U) {
         group->upper_frequency_limit_set_2_raw = words[0];
         group->lower_frequency_limit_set_2_raw = words[1];
-        break;
-    case 45U:
+    }
+    if (block == 45U) {
         group->deceleration_time_2_set_2_count = hitachi_l200_deceleration_time_2_set_2_decode_count(
             hitachi_l200_deceleration_time_2_set_2_from_words(&words[0]));
         group->ramp_2_selection_set_2_raw = words[2];
-        break;
-    case 46U:
+    }
+    if (block == 46U) {
         group->acceleration_change_frequency_set_2_count =
             hitachi_l200_acceleration_change_frequency_set_2_decode_count(
             words[0]);
-        break;
-    case 47U:
+    }
+    if (block == 47U) {
         group->deceleration_change_frequency_set_2_count =
             hitachi_l200_deceleration_change_frequency_set_2_decode_count(
             words[0]);
-        break;
-    default:
-        break; /* there is no such block */
     }
 }
 
@@ -747,63 +727,59 @@ typedef struct hitachi_l200_fine_tuning_b_group {
 static inline void hitachi_l200_fine_tuning_b_group_decode(
     size_t block, const uint16_t *words, hitachi_l200_fine_tuning_b_group *group)
 {
-    switch (block) {
-    case 0U:
+    if (block == 0U) {
         group->restart_mode_raw = words[0];
         group->allowed_power_failure_time_count = hitachi_l200_allowed_power_failure_time_decode_count(words[1]);
         group->restart_delay_count = hitachi_l200_restart_delay_decode_count(words[2]);
         group->power_failure_trip_at_standstill_raw = words[3];
-        break;
-    case 1U:
+    }
+    if (block == 1U) {
         group->power_failure_restarts_raw = words[0];
-        break;
-    case 2U:
+    }
+    if (block == 2U) {
         group->motor_protection_level_count = hitachi_l200_motor_protection_level_decode_count(words[0]);
         group->motor_protection_characteristic_raw = words[1];
-        break;
-    case 3U:
+    }
+    if (block == 3U) {
         group->current_limit_mode_raw = words[0];
         group->current_limit_level_count = hitachi_l200_current_limit_level_decode_count(words[1]);
         group->current_limit_time_count = hitachi_l200_current_limit_time_decode_count(words[2]);
-        break;
-    case 4U:
+    }
+    if (block == 4U) {
         group->current_limit_source_raw = words[0];
         group->parameter_lock_raw = words[1];
-        break;
-    case 5U:
+    }
+    if (block == 5U) {
         group->analog_output_gain_raw = words[0];
-        break;
-    case 6U:
+    }
+    if (block == 6U) {
         group->start_frequency_count = hitachi_l200_start_frequency_decode_count(words[0]);
         group->carrier_frequency_count = hitachi_l200_carrier_frequency_decode_count(words[1]);
         group->initialization_mode_raw = words[2];
-        break;
-    case 7U:
+    }
+    if (block == 7U) {
         group->frequency_display_factor_count = hitachi_l200_frequency_display_factor_decode_count(words[0]);
         group->stop_key_lock_raw = words[1];
         group->coast_restart_mode_raw = words[2];
         group->network_display_raw = words[3];
-        break;
-    case 8U:
+    }
+    if (block == 8U) {
         group->stop_mode_raw = words[0];
-        break;
-    case 9U:
+    }
+    if (block == 9U) {
         group->overvoltage_deceleration_enable_raw = words[0];
         group->overvoltage_deceleration_level_200v_raw = words[1];
         group->overvoltage_deceleration_level_400v_raw = words[1];
-        break;
-    case 10U:
+    }
+    if (block == 10U) {
         group->motor_protection_level_set_2_count = hitachi_l200_motor_protection_level_set_2_decode_count(words[0]);
         group->motor_protection_characteristic_set_2_raw = words[1];
         group->current_limit_mode_set_2_raw = words[2];
         group->current_limit_level_set_2_count = hitachi_l200_current_limit_level_set_2_decode_count(words[3]);
-        break;
-    case 11U:
+    }
+    if (block == 11U) {
         group->current_limit_time_set_2_count = hitachi_l200_current_limit_time_set_2_decode_count(words[0]);
         group->current_limit_source_set_2_raw = words[1];
-        break;
-    default:
-        break; /* there is no such block */
     }
 }
 
@@ -857,99 +833,95 @@ typedef struct hitachi_l200_control_c_group {
 static inline void hitachi_l200_control_c_group_decode(
     size_t block, const uint16_t *words, hitachi_l200_control_c_group *group)
 {
-    switch (block) {
-    case 0U:
+    if (block == 0U) {
         group->digital_input_1_function_raw = words[0];
         group->digital_input_2_function_raw = words[1];
         group->digital_input_3_function_raw = words[2];
         group->digital_input_4_function_raw = words[3];
-        break;
-    case 1U:
+    }
+    if (block == 1U) {
         group->digital_input_5_function_raw = words[0];
-        break;
-    case 2U:
+    }
+    if (block == 2U) {
         group->digital_input_1_contact_raw = words[0];
         group->digital_input_2_contact_raw = words[1];
         group->digital_input_3_contact_raw = words[2];
         group->digital_input_4_contact_raw = words[3];
-        break;
-    case 3U:
+    }
+    if (block == 3U) {
         group->digital_input_5_contact_raw = words[0];
-        break;
-    case 4U:
+    }
+    if (block == 4U) {
         group->digital_output_11_function_raw = words[0];
         group->digital_output_12_function_raw = words[1];
-        break;
-    case 5U:
+    }
+    if (block == 5U) {
         group->relay_output_function_raw = words[0];
-        break;
-    case 6U:
+    }
+    if (block == 6U) {
         group->analog_output_source_raw = words[0];
-        break;
-    case 7U:
+    }
+    if (block == 7U) {
         group->digital_output_11_contact_raw = words[0];
         group->digital_output_12_contact_raw = words[1];
-        break;
-    case 8U:
+    }
+    if (block == 8U) {
         group->relay_output_contact_raw = words[0];
-        break;
-    case 9U:
+    }
+    if (block == 9U) {
         group->overload_alarm_level_count = hitachi_l200_overload_alarm_level_decode_count(words[0]);
-        break;
-    case 10U:
+    }
+    if (block == 10U) {
         group->arrival_frequency_acceleration_count = hitachi_l200_arrival_frequency_acceleration_decode_count(
             words[0]);
-        break;
-    case 11U:
+    }
+    if (block == 11U) {
         group->arrival_frequency_deceleration_count = hitachi_l200_arrival_frequency_deceleration_decode_count(
             words[0]);
         group->pid_deviation_level_count = hitachi_l200_pid_deviation_level_decode_count(words[1]);
-        break;
-    case 12U:
+    }
+    if (block == 12U) {
         group->pid_process_value_upper_limit_count = hitachi_l200_pid_process_value_upper_limit_decode_count(words[0]);
         group->pid_process_value_lower_limit_count = hitachi_l200_pid_process_value_lower_limit_decode_count(words[1]);
-        break;
-    case 13U:
+    }
+    if (block == 13U) {
         group->input_o_calibration_count = hitachi_l200_input_o_calibration_decode_count(words[0]);
         group->input_oi_calibration_count = hitachi_l200_input_oi_calibration_decode_count(words[1]);
-        break;
-    case 14U:
+    }
+    if (block == 14U) {
         group->thermistor_input_calibration_count = hitachi_l200_thermistor_input_calibration_decode_count(words[0]);
         group->analog_output_offset_count = hitachi_l200_analog_output_offset_decode_count(words[1]);
-        break;
-    case 15U:
+    }
+    if (block == 15U) {
         group->motor_potentiometer_memory_raw = words[0];
         group->reset_mode_raw = words[1];
-        break;
-    case 16U:
+    }
+    if (block == 16U) {
         group->logic_input_a_raw = words[0];
         group->logic_input_b_raw = words[1];
         group->logic_operator_raw = words[2];
         group->digital_output_11_on_delay_count = hitachi_l200_digital_output_11_on_delay_decode_count(words[3]);
-        break;
-    case 17U:
+    }
+    if (block == 17U) {
         group->digital_output_11_off_delay_count = hitachi_l200_digital_output_11_off_delay_decode_count(words[0]);
         group->digital_output_12_on_delay_count = hitachi_l200_digital_output_12_on_delay_decode_count(words[1]);
         group->digital_output_12_off_delay_count = hitachi_l200_digital_output_12_off_delay_decode_count(words[2]);
         group->relay_output_on_delay_count = hitachi_l200_relay_output_on_delay_decode_count(words[3]);
-        break;
-    case 18U:
+    }
+    if (block == 18U) {
         group->relay_output_off_delay_count = hitachi_l200_relay_output_off_delay_decode_count(words[0]);
-        break;
-    case 19U:
+    }
+    if (block == 19U) {
         group->digital_input_1_function_set_2_raw = words[0];
         group->digital_input_2_function_set_2_raw = words[1];
         group->digital_input_3_function_set_2_raw = words[2];
         group->digital_input_4_function_set_2_raw = words[3];
-        break;
-    case 20U:
+    }
+    if (block == 20U) {
         group->digital_input_5_function_set_2_raw = words[0];
-        break;
-    case 21U:
+    }
+    if (block == 21U) {
         group->overload_alarm_level_set_2_count = hitachi_l200_overload_alarm_level_set_2_decode_count(words[0]);
-        break;
-    default:
-        break; /* there is no such block */
     }
 }
 
@@ -965,23 +937,19 @@ typedef struct hitachi_l200_motor_h_group {
 static inline void hitachi_l200_motor_h_group_decode(
     size_t block, const uint16_t *words, hitachi_l200_motor_h_group *group)
 {
-    switch (block) {
-    case 0U:
+    if (block == 0U) {
         group->motor_power_raw = words[0];
         group->motor_poles_raw = words[1];
-        break;
-    case 1U:
+    }
+    if (block == 1U) {
         group->stabilization_constant_raw = words[0];
-        break;
-    case 2U:
+    }
+    if (block == 2U) {
         group->motor_power_set_2_raw = words[0];
         group->motor_poles_set_2_raw = words[1];
-        break;
-    case 3U:
+    }
+    if (block == 3U) {
         group->stabilization_constant_set_2_raw = words[0];
-        break;
-    default:
-        break; /* there is no such block */
     }
 }
 
@@ -1168,10 +1136,7 @@ FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_rotation_direction(hitachi_l200_device
 static const fieldscribe_modbus_r hitachi_l200_scaled_process_value_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x1004U, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_scaled_process_value(hitachi_l200_device *device, int64_t *count)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x1004U, 2U, count,
-        hitachi_l200_scaled_process_value_decode_count(hitachi_l200_scaled_process_value_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x1004U, 0U, count, hitachi_l200_scaled_process_value_decode_count(raw)) }
 static const fieldscribe_modbus_r hitachi_l200_digital_inputs_frame = {&hitachi_l200_layout_u16, {3U, 0x1006U, 1U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_digital_inputs(hitachi_l200_device *device, int32_t *value)
 { FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x1006U, value, hitachi_l200_digital_inputs_decode(word)) }
@@ -1183,17 +1148,11 @@ FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_output_voltage(hitachi_l200_device *de
 { FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x100BU, count, hitachi_l200_output_voltage_decode_count(word)) }
 static const fieldscribe_modbus_r hitachi_l200_run_time_frame = {&hitachi_l200_layout_u32_order_01, {3U, 0x100DU, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_run_time(hitachi_l200_device *device, int64_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x100DU, 2U, value,
-        hitachi_l200_run_time_decode(hitachi_l200_run_time_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x100DU, 0U, value, hitachi_l200_run_time_decode(raw)) }
 static const fieldscribe_modbus_r hitachi_l200_power_on_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x100FU, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_power_on_time(hitachi_l200_device *device, int64_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x100FU, 2U, value,
-        hitachi_l200_power_on_time_decode(hitachi_l200_power_on_time_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x100FU, 0U, value, hitachi_l200_power_on_time_decode(raw)) }
 static const fieldscribe_modbus_r hitachi_l200_trip_count_frame = {&hitachi_l200_layout_u16, {3U, 0x0010U, 1U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_count(hitachi_l200_device *device, int32_t *value)
 { FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0010U, value, hitachi_l200_trip_count_decode(word)) }
@@ -1215,17 +1174,11 @@ FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_1_dc_bus_voltage(hitachi_l200_dev
 static const fieldscribe_modbus_r hitachi_l200_trip_1_run_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x0017U, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_1_run_time(hitachi_l200_device *device, int64_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x0017U, 2U, value,
-        hitachi_l200_trip_1_run_time_decode(hitachi_l200_trip_1_run_time_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x0017U, 0U, value, hitachi_l200_trip_1_run_time_decode(raw)) }
 static const fieldscribe_modbus_r hitachi_l200_trip_1_power_on_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x0019U, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_1_power_on_time(hitachi_l200_device *device, int64_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x0019U, 2U, value,
-        hitachi_l200_trip_1_power_on_time_decode(hitachi_l200_trip_1_power_on_time_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x0019U, 0U, value, hitachi_l200_trip_1_power_on_time_decode(raw)) }
 static const fieldscribe_modbus_r hitachi_l200_trip_2_error_frame = {&hitachi_l200_layout_u16, {3U, 0x001BU, 1U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_2_error(hitachi_l200_device *device, int32_t *value)
 { FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x001BU, value, hitachi_l200_trip_2_error_decode(word)) }
@@ -1244,17 +1197,11 @@ FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_2_dc_bus_voltage(hitachi_l200_dev
 static const fieldscribe_modbus_r hitachi_l200_trip_2_run_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x0021U, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_2_run_time(hitachi_l200_device *device, int64_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x0021U, 2U, value,
-        hitachi_l200_trip_2_run_time_decode(hitachi_l200_trip_2_run_time_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x0021U, 0U, value, hitachi_l200_trip_2_run_time_decode(raw)) }
 static const fieldscribe_modbus_r hitachi_l200_trip_2_power_on_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x0023U, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_2_power_on_time(hitachi_l200_device *device, int64_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x0023U, 2U, value,
-        hitachi_l200_trip_2_power_on_time_decode(hitachi_l200_trip_2_power_on_time_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x0023U, 0U, value, hitachi_l200_trip_2_power_on_time_decode(raw)) }
 static const fieldscribe_modbus_r hitachi_l200_trip_3_error_frame = {&hitachi_l200_layout_u16, {3U, 0x0025U, 1U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_3_error(hitachi_l200_device *device, int32_t *value)
 { FIELDSCRIBE_MODBUS_READ_WORD(3U, 0x0025U, value, hitachi_l200_trip_3_error_decode(word)) }
@@ -1273,66 +1220,40 @@ FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_3_dc_bus_voltage(hitachi_l200_dev
 static const fieldscribe_modbus_r hitachi_l200_trip_3_run_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x002BU, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_3_run_time(hitachi_l200_device *device, int64_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x002BU, 2U, value,
-        hitachi_l200_trip_3_run_time_decode(hitachi_l200_trip_3_run_time_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x002BU, 0U, value, hitachi_l200_trip_3_run_time_decode(raw)) }
 static const fieldscribe_modbus_r hitachi_l200_trip_3_power_on_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x002DU, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_trip_3_power_on_time(hitachi_l200_device *device, int64_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x002DU, 2U, value,
-        hitachi_l200_trip_3_power_on_time_decode(hitachi_l200_trip_3_power_on_time_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x002DU, 0U, value, hitachi_l200_trip_3_power_on_time_decode(raw)) }
 static const fieldscribe_modbus_rw hitachi_l200_acceleration_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x1013U, 2U}, {16U, 0x1013U, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_acceleration_time(hitachi_l200_device *device, int64_t *count)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x1013U, 2U, count,
-        hitachi_l200_acceleration_time_decode_count(hitachi_l200_acceleration_time_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x1013U, 0U, count, hitachi_l200_acceleration_time_decode_count(raw)) }
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_acceleration_time(hitachi_l200_device *device, int64_t count)
-{
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x1013U, 2U, uint32_t, hitachi_l200_acceleration_time_encode_count(count, &raw),
-        hitachi_l200_acceleration_time_to_words(raw, words))
-}
+{ FIELDSCRIBE_MODBUS_WRITE_LONG(16U, 0x1013U, 0U, uint32_t, hitachi_l200_acceleration_time_encode_count(count, &raw)) }
 static const fieldscribe_modbus_rw hitachi_l200_acceleration_time_set_2_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x1500U, 2U}, {16U, 0x1500U, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_acceleration_time_set_2(hitachi_l200_device *device, int64_t *count)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x1500U, 2U, count,
-        hitachi_l200_acceleration_time_set_2_decode_count(hitachi_l200_acceleration_time_set_2_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x1500U, 0U, count, hitachi_l200_acceleration_time_set_2_decode_count(raw)) }
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_acceleration_time_set_2(hitachi_l200_device *device, int64_t count)
 {
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x1500U, 2U, uint32_t,
-        hitachi_l200_acceleration_time_set_2_encode_count(count, &raw),
-        hitachi_l200_acceleration_time_set_2_to_words(raw, words))
+    FIELDSCRIBE_MODBUS_WRITE_LONG(16U, 0x1500U, 0U, uint32_t,
+        hitachi_l200_acceleration_time_set_2_encode_count(count, &raw))
 }
 static const fieldscribe_modbus_rw hitachi_l200_deceleration_time_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x1015U, 2U}, {16U, 0x1015U, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_deceleration_time(hitachi_l200_device *device, int64_t *count)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x1015U, 2U, count,
-        hitachi_l200_deceleration_time_decode_count(hitachi_l200_deceleration_time_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x1015U, 0U, count, hitachi_l200_deceleration_time_decode_count(raw)) }
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_deceleration_time(hitachi_l200_device *device, int64_t count)
-{
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x1015U, 2U, uint32_t, hitachi_l200_deceleration_time_encode_count(count, &raw),
-        hitachi_l200_deceleration_time_to_words(raw, words))
-}
+{ FIELDSCRIBE_MODBUS_WRITE_LONG(16U, 0x1015U, 0U, uint32_t, hitachi_l200_deceleration_time_encode_count(count, &raw)) }
 static const fieldscribe_modbus_rw hitachi_l200_deceleration_time_set_2_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x1502U, 2U}, {16U, 0x1502U, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_deceleration_time_set_2(hitachi_l200_device *device, int64_t *count)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x1502U, 2U, count,
-        hitachi_l200_deceleration_time_set_2_decode_count(hitachi_l200_deceleration_time_set_2_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x1502U, 0U, count, hitachi_l200_deceleration_time_set_2_decode_count(raw)) }
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_deceleration_time_set_2(hitachi_l200_device *device, int64_t count)
 {
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x1502U, 2U, uint32_t,
-        hitachi_l200_deceleration_time_set_2_encode_count(count, &raw),
-        hitachi_l200_deceleration_time_set_2_to_words(raw, words))
+    FIELDSCRIBE_MODBUS_WRITE_LONG(16U, 0x1502U, 0U, uint32_t,
+        hitachi_l200_deceleration_time_set_2_encode_count(count, &raw))
 }
 static const fieldscribe_modbus_rw hitachi_l200_motor_direction_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1017U, 1U}, {6U, 0x1017U, 1U}};
@@ -1835,41 +1756,29 @@ FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_motor_voltage(hitachi_l200_device *de
 static const fieldscribe_modbus_rw hitachi_l200_acceleration_time_2_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x1073U, 2U}, {16U, 0x1073U, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_acceleration_time_2(hitachi_l200_device *device, int64_t *count)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x1073U, 2U, count,
-        hitachi_l200_acceleration_time_2_decode_count(hitachi_l200_acceleration_time_2_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x1073U, 0U, count, hitachi_l200_acceleration_time_2_decode_count(raw)) }
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_acceleration_time_2(hitachi_l200_device *device, int64_t count)
 {
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x1073U, 2U, uint32_t,
-        hitachi_l200_acceleration_time_2_encode_count(count, &raw),
-        hitachi_l200_acceleration_time_2_to_words(raw, words))
+    FIELDSCRIBE_MODBUS_WRITE_LONG(16U, 0x1073U, 0U, uint32_t,
+        hitachi_l200_acceleration_time_2_encode_count(count, &raw))
 }
 static const fieldscribe_modbus_rw hitachi_l200_deceleration_time_2_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x1075U, 2U}, {16U, 0x1075U, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_deceleration_time_2(hitachi_l200_device *device, int64_t *count)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x1075U, 2U, count,
-        hitachi_l200_deceleration_time_2_decode_count(hitachi_l200_deceleration_time_2_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x1075U, 0U, count, hitachi_l200_deceleration_time_2_decode_count(raw)) }
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_deceleration_time_2(hitachi_l200_device *device, int64_t count)
 {
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x1075U, 2U, uint32_t,
-        hitachi_l200_deceleration_time_2_encode_count(count, &raw),
-        hitachi_l200_deceleration_time_2_to_words(raw, words))
+    FIELDSCRIBE_MODBUS_WRITE_LONG(16U, 0x1075U, 0U, uint32_t,
+        hitachi_l200_deceleration_time_2_encode_count(count, &raw))
 }
 static const fieldscribe_modbus_rw hitachi_l200_deceleration_time_2_set_2_frame =
     {&hitachi_l200_layout_u32_order_01, {3U, 0x1519U, 2U}, {16U, 0x1519U, 2U}};
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_read_deceleration_time_2_set_2(hitachi_l200_device *device, int64_t *count)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x1519U, 2U, count,
-        hitachi_l200_deceleration_time_2_set_2_decode_count(hitachi_l200_deceleration_time_2_set_2_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x1519U, 0U, count, hitachi_l200_deceleration_time_2_set_2_decode_count(raw)) }
 FIELDSCRIBE_MODBUS_CALL hitachi_l200_write_deceleration_time_2_set_2(hitachi_l200_device *device, int64_t count)
 {
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x1519U, 2U, uint32_t,
-        hitachi_l200_deceleration_time_2_set_2_encode_count(count, &raw),
-        hitachi_l200_deceleration_time_2_set_2_to_words(raw, words))
+    FIELDSCRIBE_MODBUS_WRITE_LONG(16U, 0x1519U, 0U, uint32_t,
+        hitachi_l200_deceleration_time_2_set_2_encode_count(count, &raw))
 }
 static const fieldscribe_modbus_rw hitachi_l200_ramp_2_selection_frame =
     {&hitachi_l200_layout_u16, {3U, 0x1077U, 1U}, {6U, 0x1077U, 1U}};

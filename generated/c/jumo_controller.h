@@ -7,7 +7,7 @@
  *
  * A raw number is the signed or unsigned integer on the wire. A value is its meaning in the unit. A count is the value
  * as an integer number of 10^-DECIMALS units. Encoding rounds to nearest, halves away from zero, and stores a result
- * only if it returns JUMO_CONTROLLER_OK. Decoding accepts every raw number that a device may send.
+ * only if it returns FIELDSCRIBE_OK. Decoding accepts every raw number that a device may send.
  * fieldscribe.h explains FIELDSCRIBE_NO_FLOAT and FIELDSCRIBE_FLOAT32.
  *
  * The manual leaves open
@@ -24,7 +24,7 @@
 
 #include "fieldscribe.h"
 
-#if FIELDSCRIBE_INTERFACE != 1
+#if FIELDSCRIBE_INTERFACE != 2
 #error "fieldscribe.h is of another version: take the one that was generated with this header."
 #endif
 
@@ -36,19 +36,6 @@
 #define JUMO_CONTROLLER_DESCRIPTION_DIGEST "260af48d2f694f9b"
 #define JUMO_CONTROLLER_DESCRIPTION 0x260af48dU /* for #if */
 
-typedef fieldscribe_status jumo_controller_status;
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-typedef fieldscribe_real jumo_controller_real;
-#endif
-#define JUMO_CONTROLLER_OK FIELDSCRIBE_OK
-#define JUMO_CONTROLLER_OUT_OF_RANGE FIELDSCRIBE_OUT_OF_RANGE
-#define JUMO_CONTROLLER_NOT_A_NUMBER FIELDSCRIBE_NOT_A_NUMBER
-#define JUMO_CONTROLLER_UNKNOWN_VALUE FIELDSCRIBE_UNKNOWN_VALUE
-#define JUMO_CONTROLLER_ZERO_FACTOR FIELDSCRIBE_ZERO_FACTOR
-#define JUMO_CONTROLLER_NO_CASE FIELDSCRIBE_NO_CASE
-#define JUMO_CONTROLLER_OVERFLOW FIELDSCRIBE_OVERFLOW
-#define JUMO_CONTROLLER_SPECIAL FIELDSCRIBE_SPECIAL
-#define JUMO_CONTROLLER_MALFORMED FIELDSCRIBE_MALFORMED
 
 /*
  * Times and settings of the line, from the manual. TIMING_..._MS are milliseconds; MIN and MAX are their limits.
@@ -71,7 +58,6 @@ typedef fieldscribe_real jumo_controller_real;
 #define JUMO_CONTROLLER_SERIAL_FORMAT_8_DATA_BITS_1_STOP_BIT_ODD_PARITY 1U
 #define JUMO_CONTROLLER_SERIAL_FORMAT_8_DATA_BITS_1_STOP_BIT_EVEN_PARITY 2U
 #define JUMO_CONTROLLER_SERIAL_FORMAT_8_DATA_BITS_2_STOP_BITS_NO_PARITY 3U
-
 
 /* ---- process data (holding) ---- */
 
@@ -266,15 +252,6 @@ static inline void jumo_controller_setpoint_1_to_words(uint32_t raw, uint16_t wo
 { fieldscribe_split32((uint32_t)raw, &words[1], &words[0]); }
 static inline uint32_t jumo_controller_setpoint_1_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[1], words[0]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS jumo_controller_setpoint_1_encode(fieldscribe_real value, uint32_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);
-    return fieldscribe_keep_u32(fieldscribe_both(whole.status,
-        jumo_controller_setpoint_1_check((uint32_t)whole.number)), (uint32_t)whole.number, raw);
-}
-static inline fieldscribe_real jumo_controller_setpoint_1_decode(uint32_t raw) { return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* setpoint 2: any number; 0.01 a count; rw */
 #define JUMO_CONTROLLER_SETPOINT_2_ADDRESS 0x3102U
@@ -294,15 +271,6 @@ static inline void jumo_controller_setpoint_2_to_words(uint32_t raw, uint16_t wo
 { fieldscribe_split32((uint32_t)raw, &words[1], &words[0]); }
 static inline uint32_t jumo_controller_setpoint_2_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[1], words[0]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS jumo_controller_setpoint_2_encode(fieldscribe_real value, uint32_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);
-    return fieldscribe_keep_u32(fieldscribe_both(whole.status,
-        jumo_controller_setpoint_2_check((uint32_t)whole.number)), (uint32_t)whole.number, raw);
-}
-static inline fieldscribe_real jumo_controller_setpoint_2_decode(uint32_t raw) { return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* Pb1 proportional band 1 set 2: any number; 0.01 a count; rw */
 #define JUMO_CONTROLLER_PROPORTIONAL_BAND_1_SET_2_ADDRESS 0x3014U
@@ -322,16 +290,6 @@ static inline void jumo_controller_proportional_band_1_set_2_to_words(uint32_t r
 { fieldscribe_split32((uint32_t)raw, &words[1], &words[0]); }
 static inline uint32_t jumo_controller_proportional_band_1_set_2_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[1], words[0]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS jumo_controller_proportional_band_1_set_2_encode(fieldscribe_real value, uint32_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);
-    return fieldscribe_keep_u32(fieldscribe_both(whole.status,
-        jumo_controller_proportional_band_1_set_2_check((uint32_t)whole.number)), (uint32_t)whole.number, raw);
-}
-static inline fieldscribe_real jumo_controller_proportional_band_1_set_2_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * value 0077: any number; 0.01 a count; w; the manual leaves open what it sets (value_0077_meaning), whether a float
@@ -352,14 +310,6 @@ static inline void jumo_controller_value_0077_to_words(uint32_t raw, uint16_t wo
 { fieldscribe_split32((uint32_t)raw, &words[1], &words[0]); }
 static inline uint32_t jumo_controller_value_0077_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[1], words[0]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS jumo_controller_value_0077_encode(fieldscribe_real value, uint32_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);
-    return fieldscribe_keep_u32(fieldscribe_both(whole.status,
-        jumo_controller_value_0077_check((uint32_t)whole.number)), (uint32_t)whole.number, raw);
-}
-#endif
 
 /* value 00ce: any number; 0.01 a count; r; the manual leaves open what it holds (value_00ce_meaning) */
 #define JUMO_CONTROLLER_VALUE_00CE_ADDRESS 0x00CEU
@@ -371,9 +321,6 @@ static inline void jumo_controller_value_00ce_to_words(uint32_t raw, uint16_t wo
 { fieldscribe_split32((uint32_t)raw, &words[1], &words[0]); }
 static inline uint32_t jumo_controller_value_00ce_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[1], words[0]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real jumo_controller_value_00ce_decode(uint32_t raw) { return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /* ---- command words (holding) ---- */
 
@@ -445,5 +392,39 @@ FIELDSCRIBE_STATUS jumo_controller_timer_commands_check(uint16_t raw) { (void)ra
 FIELDSCRIBE_STATUS jumo_controller_timer_commands_encode(int32_t value, uint16_t *raw)
 { return fieldscribe_encode_u16(value, 0, 65535, raw); }
 static inline int32_t jumo_controller_timer_commands_decode(uint16_t raw) { return raw; }
+
+/* ---- Values in floating point ---- */
+
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS jumo_controller_setpoint_1_encode(fieldscribe_real value, uint32_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);
+    return fieldscribe_keep_u32(fieldscribe_both(whole.status,
+        jumo_controller_setpoint_1_check((uint32_t)whole.number)), (uint32_t)whole.number, raw);
+}
+static inline fieldscribe_real jumo_controller_setpoint_1_decode(uint32_t raw) { return fieldscribe_f32_of_bits(raw); }
+FIELDSCRIBE_STATUS jumo_controller_setpoint_2_encode(fieldscribe_real value, uint32_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);
+    return fieldscribe_keep_u32(fieldscribe_both(whole.status,
+        jumo_controller_setpoint_2_check((uint32_t)whole.number)), (uint32_t)whole.number, raw);
+}
+static inline fieldscribe_real jumo_controller_setpoint_2_decode(uint32_t raw) { return fieldscribe_f32_of_bits(raw); }
+FIELDSCRIBE_STATUS jumo_controller_proportional_band_1_set_2_encode(fieldscribe_real value, uint32_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);
+    return fieldscribe_keep_u32(fieldscribe_both(whole.status,
+        jumo_controller_proportional_band_1_set_2_check((uint32_t)whole.number)), (uint32_t)whole.number, raw);
+}
+static inline fieldscribe_real jumo_controller_proportional_band_1_set_2_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+FIELDSCRIBE_STATUS jumo_controller_value_0077_encode(fieldscribe_real value, uint32_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);
+    return fieldscribe_keep_u32(fieldscribe_both(whole.status,
+        jumo_controller_value_0077_check((uint32_t)whole.number)), (uint32_t)whole.number, raw);
+}
+static inline fieldscribe_real jumo_controller_value_00ce_decode(uint32_t raw) { return fieldscribe_f32_of_bits(raw); }
+#endif
 
 #endif

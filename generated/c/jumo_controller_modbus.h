@@ -14,7 +14,7 @@
 #ifndef JUMO_CONTROLLER_MODBUS_H
 #define JUMO_CONTROLLER_MODBUS_H
 
-#if FIELDSCRIBE_MODBUS_INTERFACE != 6
+#if FIELDSCRIBE_MODBUS_INTERFACE != 7
 #error "fieldscribe_modbus_facts.h is of another version: take the one that was generated with this header."
 #endif
 #if JUMO_CONTROLLER_DESCRIPTION != 0x260af48dU
@@ -91,36 +91,32 @@ typedef struct jumo_controller_process_data_group {
 static inline void jumo_controller_process_data_group_decode(
     size_t block, const uint16_t *words, jumo_controller_process_data_group *group)
 {
-    switch (block) {
-    case 0U:
+    if (block == 0U) {
         group->program_status_raw = words[0];
         group->controller_status_raw = words[1];
         group->binary_outputs_raw = words[2];
-        break;
-    case 1U:
+    }
+    if (block == 1U) {
         group->binary_inputs_raw = words[0];
-        break;
-    case 2U:
+    }
+    if (block == 2U) {
         group->control_contacts_raw = words[0];
         group->binary_signals_raw = words[1];
         group->binary_output_control_raw = words[2];
-        break;
-    case 3U:
+    }
+    if (block == 3U) {
         group->program_run_time_raw = jumo_controller_program_run_time_from_words(&words[0]);
         group->program_remaining_time_raw = jumo_controller_program_remaining_time_from_words(&words[2]);
-        break;
-    case 4U:
+    }
+    if (block == 4U) {
         group->section_run_time_raw = jumo_controller_section_run_time_from_words(&words[0]);
         group->section_remaining_time_raw = jumo_controller_section_remaining_time_from_words(&words[2]);
-        break;
-    case 5U:
+    }
+    if (block == 5U) {
         group->timer_1_run_time_raw = jumo_controller_timer_1_run_time_from_words(&words[0]);
         group->timer_2_run_time_raw = jumo_controller_timer_2_run_time_from_words(&words[2]);
         group->timer_3_run_time_raw = jumo_controller_timer_3_run_time_from_words(&words[4]);
         group->timer_4_run_time_raw = jumo_controller_timer_4_run_time_from_words(&words[6]);
-        break;
-    default:
-        break; /* there is no such block */
     }
 }
 
@@ -134,19 +130,15 @@ typedef struct jumo_controller_examples_group {
 static inline void jumo_controller_examples_group_decode(
     size_t block, const uint16_t *words, jumo_controller_examples_group *group)
 {
-    switch (block) {
-    case 0U:
+    if (block == 0U) {
         group->value_00ce_raw = jumo_controller_value_00ce_from_words(&words[0]);
-        break;
-    case 1U:
+    }
+    if (block == 1U) {
         group->proportional_band_1_set_2_raw = jumo_controller_proportional_band_1_set_2_from_words(&words[0]);
-        break;
-    case 2U:
+    }
+    if (block == 2U) {
         group->setpoint_1_raw = jumo_controller_setpoint_1_from_words(&words[0]);
         group->setpoint_2_raw = jumo_controller_setpoint_2_from_words(&words[2]);
-        break;
-    default:
-        break; /* there is no such block */
     }
 }
 
@@ -160,15 +152,11 @@ typedef struct jumo_controller_command_words_group {
 static inline void jumo_controller_command_words_group_decode(
     size_t block, const uint16_t *words, jumo_controller_command_words_group *group)
 {
-    switch (block) {
-    case 0U:
+    if (block == 0U) {
         group->program_controller_commands_raw = words[0];
         group->controller_commands_raw = words[1];
         group->operation_commands_raw = words[2];
         group->timer_commands_raw = words[3];
-        break;
-    default:
-        break; /* there is no such block */
     }
 }
 
@@ -218,111 +206,64 @@ FIELDSCRIBE_MODBUS_CALL jumo_controller_write_binary_output_control(jumo_control
 static const fieldscribe_modbus_r jumo_controller_program_run_time_frame =
     {&jumo_controller_layout_u32_order_01, {3U, 0x005BU, 2U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_read_program_run_time(jumo_controller_device *device, int64_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x005BU, 2U, value,
-        jumo_controller_program_run_time_decode(jumo_controller_program_run_time_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x005BU, 0U, value, jumo_controller_program_run_time_decode(raw)) }
 static const fieldscribe_modbus_r jumo_controller_program_remaining_time_frame =
     {&jumo_controller_layout_u32_order_01, {3U, 0x005DU, 2U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_read_program_remaining_time(jumo_controller_device *device, int64_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x005DU, 2U, value,
-        jumo_controller_program_remaining_time_decode(jumo_controller_program_remaining_time_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x005DU, 0U, value, jumo_controller_program_remaining_time_decode(raw)) }
 static const fieldscribe_modbus_r jumo_controller_section_run_time_frame =
     {&jumo_controller_layout_u32_order_01, {3U, 0x0061U, 2U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_read_section_run_time(jumo_controller_device *device, int64_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x0061U, 2U, value,
-        jumo_controller_section_run_time_decode(jumo_controller_section_run_time_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x0061U, 0U, value, jumo_controller_section_run_time_decode(raw)) }
 static const fieldscribe_modbus_r jumo_controller_section_remaining_time_frame =
     {&jumo_controller_layout_u32_order_01, {3U, 0x0063U, 2U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_read_section_remaining_time(jumo_controller_device *device, int64_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x0063U, 2U, value,
-        jumo_controller_section_remaining_time_decode(jumo_controller_section_remaining_time_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x0063U, 0U, value, jumo_controller_section_remaining_time_decode(raw)) }
 static const fieldscribe_modbus_r jumo_controller_timer_1_run_time_frame =
     {&jumo_controller_layout_u32_order_01, {3U, 0x0067U, 2U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_read_timer_1_run_time(jumo_controller_device *device, int64_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x0067U, 2U, value,
-        jumo_controller_timer_1_run_time_decode(jumo_controller_timer_1_run_time_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x0067U, 0U, value, jumo_controller_timer_1_run_time_decode(raw)) }
 static const fieldscribe_modbus_r jumo_controller_timer_2_run_time_frame =
     {&jumo_controller_layout_u32_order_01, {3U, 0x0069U, 2U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_read_timer_2_run_time(jumo_controller_device *device, int64_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x0069U, 2U, value,
-        jumo_controller_timer_2_run_time_decode(jumo_controller_timer_2_run_time_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x0069U, 0U, value, jumo_controller_timer_2_run_time_decode(raw)) }
 static const fieldscribe_modbus_r jumo_controller_timer_3_run_time_frame =
     {&jumo_controller_layout_u32_order_01, {3U, 0x006BU, 2U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_read_timer_3_run_time(jumo_controller_device *device, int64_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x006BU, 2U, value,
-        jumo_controller_timer_3_run_time_decode(jumo_controller_timer_3_run_time_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x006BU, 0U, value, jumo_controller_timer_3_run_time_decode(raw)) }
 static const fieldscribe_modbus_r jumo_controller_timer_4_run_time_frame =
     {&jumo_controller_layout_u32_order_01, {3U, 0x006DU, 2U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_read_timer_4_run_time(jumo_controller_device *device, int64_t *value)
-{
-    FIELDSCRIBE_MODBUS_READ_WORDS(3U, 0x006DU, 2U, value,
-        jumo_controller_timer_4_run_time_decode(jumo_controller_timer_4_run_time_from_words(words)))
-}
+{ FIELDSCRIBE_MODBUS_READ_LONG(3U, 0x006DU, 0U, value, jumo_controller_timer_4_run_time_decode(raw)) }
 static const fieldscribe_modbus_rw jumo_controller_setpoint_1_frame =
     {&jumo_controller_layout_u32_order_10, {3U, 0x3100U, 2U}, {16U, 0x3100U, 2U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_read_setpoint_1(jumo_controller_device *device, int64_t *count)
-{
-    FIELDSCRIBE_MODBUS_DECODE_WORDS(3U, 0x3100U, 2U,
-        jumo_controller_setpoint_1_decode_count(jumo_controller_setpoint_1_from_words(words), count))
-}
+{ FIELDSCRIBE_MODBUS_DECODE_LONG(3U, 0x3100U, 1U, jumo_controller_setpoint_1_decode_count(raw, count)) }
 FIELDSCRIBE_MODBUS_CALL jumo_controller_write_setpoint_1(jumo_controller_device *device, int64_t count)
-{
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x3100U, 2U, uint32_t, jumo_controller_setpoint_1_encode_count(count, &raw),
-        jumo_controller_setpoint_1_to_words(raw, words))
-}
+{ FIELDSCRIBE_MODBUS_WRITE_LONG(16U, 0x3100U, 1U, uint32_t, jumo_controller_setpoint_1_encode_count(count, &raw)) }
 static const fieldscribe_modbus_rw jumo_controller_setpoint_2_frame =
     {&jumo_controller_layout_u32_order_10, {3U, 0x3102U, 2U}, {16U, 0x3102U, 2U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_read_setpoint_2(jumo_controller_device *device, int64_t *count)
-{
-    FIELDSCRIBE_MODBUS_DECODE_WORDS(3U, 0x3102U, 2U,
-        jumo_controller_setpoint_2_decode_count(jumo_controller_setpoint_2_from_words(words), count))
-}
+{ FIELDSCRIBE_MODBUS_DECODE_LONG(3U, 0x3102U, 1U, jumo_controller_setpoint_2_decode_count(raw, count)) }
 FIELDSCRIBE_MODBUS_CALL jumo_controller_write_setpoint_2(jumo_controller_device *device, int64_t count)
-{
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x3102U, 2U, uint32_t, jumo_controller_setpoint_2_encode_count(count, &raw),
-        jumo_controller_setpoint_2_to_words(raw, words))
-}
+{ FIELDSCRIBE_MODBUS_WRITE_LONG(16U, 0x3102U, 1U, uint32_t, jumo_controller_setpoint_2_encode_count(count, &raw)) }
 static const fieldscribe_modbus_rw jumo_controller_proportional_band_1_set_2_frame =
     {&jumo_controller_layout_u32_order_10, {3U, 0x3014U, 2U}, {16U, 0x3014U, 2U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_read_proportional_band_1_set_2(jumo_controller_device *device, int64_t *count)
-{
-    FIELDSCRIBE_MODBUS_DECODE_WORDS(3U, 0x3014U, 2U,
-        jumo_controller_proportional_band_1_set_2_decode_count(
-        jumo_controller_proportional_band_1_set_2_from_words(words), count))
-}
+{ FIELDSCRIBE_MODBUS_DECODE_LONG(3U, 0x3014U, 1U, jumo_controller_proportional_band_1_set_2_decode_count(raw, count)) }
 FIELDSCRIBE_MODBUS_CALL jumo_controller_write_proportional_band_1_set_2(jumo_controller_device *device, int64_t count)
 {
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x3014U, 2U, uint32_t,
-        jumo_controller_proportional_band_1_set_2_encode_count(count, &raw),
-        jumo_controller_proportional_band_1_set_2_to_words(raw, words))
+    FIELDSCRIBE_MODBUS_WRITE_LONG(16U, 0x3014U, 1U, uint32_t,
+        jumo_controller_proportional_band_1_set_2_encode_count(count, &raw))
 }
 static const fieldscribe_modbus_w jumo_controller_value_0077_frame =
     {&jumo_controller_layout_u32_order_10, {16U, 0x0077U, 2U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_write_value_0077(jumo_controller_device *device, int64_t count)
-{
-    FIELDSCRIBE_MODBUS_WRITE_WORDS(16U, 0x0077U, 2U, uint32_t, jumo_controller_value_0077_encode_count(count, &raw),
-        jumo_controller_value_0077_to_words(raw, words))
-}
+{ FIELDSCRIBE_MODBUS_WRITE_LONG(16U, 0x0077U, 1U, uint32_t, jumo_controller_value_0077_encode_count(count, &raw)) }
 static const fieldscribe_modbus_r jumo_controller_value_00ce_frame =
     {&jumo_controller_layout_u32_order_10, {3U, 0x00CEU, 2U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_read_value_00ce(jumo_controller_device *device, int64_t *count)
-{
-    FIELDSCRIBE_MODBUS_DECODE_WORDS(3U, 0x00CEU, 2U,
-        jumo_controller_value_00ce_decode_count(jumo_controller_value_00ce_from_words(words), count))
-}
+{ FIELDSCRIBE_MODBUS_DECODE_LONG(3U, 0x00CEU, 1U, jumo_controller_value_00ce_decode_count(raw, count)) }
 static const fieldscribe_modbus_rw jumo_controller_program_controller_commands_frame =
     {&jumo_controller_layout_u16, {3U, 0x006FU, 1U}, {6U, 0x006FU, 1U}};
 FIELDSCRIBE_MODBUS_CALL jumo_controller_read_program_controller_commands(jumo_controller_device *device, int32_t *value)

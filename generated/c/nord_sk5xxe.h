@@ -7,7 +7,7 @@
  *
  * A raw number is the signed or unsigned integer on the wire. A value is its meaning in the unit. A count is the value
  * as an integer number of 10^-DECIMALS units. Encoding rounds to nearest, halves away from zero, and stores a result
- * only if it returns NORD_SK5XXE_OK. Decoding accepts every raw number that a device may send.
+ * only if it returns FIELDSCRIBE_OK. Decoding accepts every raw number that a device may send.
  * fieldscribe.h explains FIELDSCRIBE_NO_FLOAT and FIELDSCRIBE_FLOAT32.
  *
  * The manual leaves open
@@ -25,7 +25,7 @@
 
 #include "fieldscribe.h"
 
-#if FIELDSCRIBE_INTERFACE != 1
+#if FIELDSCRIBE_INTERFACE != 2
 #error "fieldscribe.h is of another version: take the one that was generated with this header."
 #endif
 
@@ -37,19 +37,6 @@
 #define NORD_SK5XXE_DESCRIPTION_DIGEST "8a2a4e64b041a524"
 #define NORD_SK5XXE_DESCRIPTION 0x8a2a4e64U /* for #if */
 
-typedef fieldscribe_status nord_sk5xxe_status;
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-typedef fieldscribe_real nord_sk5xxe_real;
-#endif
-#define NORD_SK5XXE_OK FIELDSCRIBE_OK
-#define NORD_SK5XXE_OUT_OF_RANGE FIELDSCRIBE_OUT_OF_RANGE
-#define NORD_SK5XXE_NOT_A_NUMBER FIELDSCRIBE_NOT_A_NUMBER
-#define NORD_SK5XXE_UNKNOWN_VALUE FIELDSCRIBE_UNKNOWN_VALUE
-#define NORD_SK5XXE_ZERO_FACTOR FIELDSCRIBE_ZERO_FACTOR
-#define NORD_SK5XXE_NO_CASE FIELDSCRIBE_NO_CASE
-#define NORD_SK5XXE_OVERFLOW FIELDSCRIBE_OVERFLOW
-#define NORD_SK5XXE_SPECIAL FIELDSCRIBE_SPECIAL
-#define NORD_SK5XXE_MALFORMED FIELDSCRIBE_MALFORMED
 
 /*
  * Times and settings of the line, from the manual. TIMING_..._MS are milliseconds; MIN and MAX are their limits.
@@ -58,7 +45,6 @@ typedef fieldscribe_real nord_sk5xxe_real;
  */
 #define NORD_SK5XXE_SERIAL_DATA_BITS 8U
 #define NORD_SK5XXE_SERIAL_STOP_BITS 1U
-
 
 /* ---- process data (holding) ---- */
 

@@ -14,7 +14,7 @@
 #ifndef NORD_SK5XXE_MODBUS_H
 #define NORD_SK5XXE_MODBUS_H
 
-#if FIELDSCRIBE_MODBUS_INTERFACE != 6
+#if FIELDSCRIBE_MODBUS_INTERFACE != 7
 #error "fieldscribe_modbus_facts.h is of another version: take the one that was generated with this header."
 #endif
 #if NORD_SK5XXE_DESCRIPTION != 0x8a2a4e64U
@@ -66,25 +66,21 @@ typedef struct nord_sk5xxe_process_data_group {
 static inline void nord_sk5xxe_process_data_group_decode(
     size_t block, const uint16_t *words, nord_sk5xxe_process_data_group *group)
 {
-    switch (block) {
-    case 0U:
+    if (block == 0U) {
         group->control_word_raw = words[0];
         group->setpoint_1_raw = words[1];
         group->setpoint_2_raw = words[2];
         group->setpoint_3_raw = words[3];
         group->setpoint_4_raw = words[4];
         group->setpoint_5_raw = words[5];
-        break;
-    case 1U:
+    }
+    if (block == 1U) {
         group->status_word_raw = words[0];
         group->actual_value_1_raw = words[1];
         group->actual_value_2_raw = words[2];
         group->actual_value_3_raw = words[3];
         group->actual_value_4_raw = words[4];
         group->actual_value_5_raw = words[5];
-        break;
-    default:
-        break; /* there is no such block */
     }
 }
 

@@ -7,7 +7,7 @@
  *
  * A raw number is the signed or unsigned integer on the wire. A value is its meaning in the unit. A count is the value
  * as an integer number of 10^-DECIMALS units. Encoding rounds to nearest, halves away from zero, and stores a result
- * only if it returns SIEMENS_MM4_OK. Decoding accepts every raw number that a device may send.
+ * only if it returns FIELDSCRIBE_OK. Decoding accepts every raw number that a device may send.
  * fieldscribe.h explains FIELDSCRIBE_NO_FLOAT and FIELDSCRIBE_FLOAT32.
  *
  * The manual leaves open
@@ -32,7 +32,7 @@
 
 #include "fieldscribe.h"
 
-#if FIELDSCRIBE_INTERFACE != 1
+#if FIELDSCRIBE_INTERFACE != 2
 #error "fieldscribe.h is of another version: take the one that was generated with this header."
 #endif
 #if !defined(FIELDSCRIBE_NO_FLOAT) && !defined(FIELDSCRIBE_DOUBLE)
@@ -47,19 +47,6 @@
 #define SIEMENS_MM4_DESCRIPTION_DIGEST "5cb44d5bdfa43066"
 #define SIEMENS_MM4_DESCRIPTION 0x5cb44d5bU /* for #if */
 
-typedef fieldscribe_status siemens_mm4_status;
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-typedef fieldscribe_real siemens_mm4_real;
-#endif
-#define SIEMENS_MM4_OK FIELDSCRIBE_OK
-#define SIEMENS_MM4_OUT_OF_RANGE FIELDSCRIBE_OUT_OF_RANGE
-#define SIEMENS_MM4_NOT_A_NUMBER FIELDSCRIBE_NOT_A_NUMBER
-#define SIEMENS_MM4_UNKNOWN_VALUE FIELDSCRIBE_UNKNOWN_VALUE
-#define SIEMENS_MM4_ZERO_FACTOR FIELDSCRIBE_ZERO_FACTOR
-#define SIEMENS_MM4_NO_CASE FIELDSCRIBE_NO_CASE
-#define SIEMENS_MM4_OVERFLOW FIELDSCRIBE_OVERFLOW
-#define SIEMENS_MM4_SPECIAL FIELDSCRIBE_SPECIAL
-#define SIEMENS_MM4_MALFORMED FIELDSCRIBE_MALFORMED
 
 /*
  * Times and settings of the line, from the manual. TIMING_..._MS are milliseconds; MIN and MAX are their limits.
@@ -76,7 +63,6 @@ enum {
 };
 #define SIEMENS_MM4_TELEGRAM_TASK_WORDS 8U
 #define SIEMENS_MM4_TELEGRAM_ANSWER_WORDS 8U
-
 
 /* ---- parameters (parameter) ---- */
 
@@ -288,16 +274,6 @@ static inline void siemens_mm4_maximum_frequency_to_words(uint32_t raw, uint16_t
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t siemens_mm4_maximum_frequency_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS siemens_mm4_maximum_frequency_encode(fieldscribe_real value, uint32_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);
-    return fieldscribe_keep_u32(fieldscribe_both(whole.status,
-        siemens_mm4_maximum_frequency_check((uint32_t)whole.number)), (uint32_t)whole.number, raw);
-}
-static inline fieldscribe_real siemens_mm4_maximum_frequency_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 /*
  * P1120 acceleration time: rw; the manual leaves open its type, unit and limits (ramp_times_type), which setting of
@@ -405,24 +381,12 @@ static inline void siemens_mm4_reference_frequency_to_words(uint32_t raw, uint16
 { fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t siemens_mm4_reference_frequency_from_words(const uint16_t words[2])
 { return fieldscribe_join32(words[0], words[1]); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS siemens_mm4_reference_frequency_encode(fieldscribe_real value, uint32_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);
-    return fieldscribe_keep_u32(fieldscribe_both(whole.status,
-        siemens_mm4_reference_frequency_check((uint32_t)whole.number)), (uint32_t)whole.number, raw);
-}
-static inline fieldscribe_real siemens_mm4_reference_frequency_decode(uint32_t raw)
-{ return fieldscribe_f32_of_bits(raw); }
-#endif
 
 enum {
     SIEMENS_MM4_USS_NORMALISATION_BY_REFERENCE_FREQUENCY = 0,
     SIEMENS_MM4_USS_NORMALISATION_HUNDREDTHS_OF_HERTZ = 1,
 };
-static const char *const siemens_mm4_uss_normalisation_names[] = {
-    "by_reference_frequency", "hundredths_of_hertz"
-};
+static const char *const siemens_mm4_uss_normalisation_names[] = {"by_reference_frequency", "hundredths_of_hertz"};
 static inline const char *siemens_mm4_uss_normalisation_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(siemens_mm4_uss_normalisation_names, raw); }
 
@@ -975,11 +939,6 @@ FIELDSCRIBE_STATUS siemens_mm4_main_setpoint_encode_count(
     return fieldscribe_store_u16(fieldscribe_ratio_count(siemens_mm4_main_setpoint_rule(with), count, 3125, 5, 0,
         65535), raw);
 }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS siemens_mm4_main_setpoint_encode(
-    double value, const siemens_mm4_with_reference_frequency_and_uss_normalisation *with, uint16_t *raw)
-{ return fieldscribe_store_u16(fieldscribe_ruled_value(siemens_mm4_main_setpoint_rule(with), value, 0, 65535), raw); }
-#endif
 
 /*
  * HSW2 second setpoint: 0..65535; w, pzd 3; the manual leaves open which value a raw number has (second_words_scale);
@@ -1047,11 +1006,6 @@ static inline int32_t siemens_mm4_status_word_decode(uint16_t raw) { return raw;
 FIELDSCRIBE_STATUS siemens_mm4_main_actual_value_decode_count(
     uint16_t raw, const siemens_mm4_with_reference_frequency_and_uss_normalisation *with, int64_t *count)
 { return fieldscribe_decode_ratio(siemens_mm4_main_setpoint_rule(with), (int64_t)raw, 3125, 5, count); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS siemens_mm4_main_actual_value_decode(
-    uint16_t raw, const siemens_mm4_with_reference_frequency_and_uss_normalisation *with, double *value)
-{ return fieldscribe_decode_value(siemens_mm4_main_setpoint_rule(with), (int64_t)raw, value); }
-#endif
 
 /*
  * HIW2 second actual value: 0..65535; r, pzd 3; erratum hiw2_position; the manual leaves open which value a raw number
@@ -1065,5 +1019,32 @@ FIELDSCRIBE_STATUS siemens_mm4_main_actual_value_decode(
 #define SIEMENS_MM4_SECOND_STATUS_WORD_ADDRESS 0x0003U
 #define SIEMENS_MM4_SECOND_STATUS_WORD_TELEGRAM SIEMENS_MM4_TELEGRAM_ANSWER
 static inline int32_t siemens_mm4_second_status_word_decode(uint16_t raw) { return raw; }
+
+/* ---- Values in floating point ---- */
+
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS siemens_mm4_maximum_frequency_encode(fieldscribe_real value, uint32_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);
+    return fieldscribe_keep_u32(fieldscribe_both(whole.status,
+        siemens_mm4_maximum_frequency_check((uint32_t)whole.number)), (uint32_t)whole.number, raw);
+}
+static inline fieldscribe_real siemens_mm4_maximum_frequency_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+FIELDSCRIBE_STATUS siemens_mm4_reference_frequency_encode(fieldscribe_real value, uint32_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);
+    return fieldscribe_keep_u32(fieldscribe_both(whole.status,
+        siemens_mm4_reference_frequency_check((uint32_t)whole.number)), (uint32_t)whole.number, raw);
+}
+static inline fieldscribe_real siemens_mm4_reference_frequency_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+FIELDSCRIBE_STATUS siemens_mm4_main_setpoint_encode(
+    double value, const siemens_mm4_with_reference_frequency_and_uss_normalisation *with, uint16_t *raw)
+{ return fieldscribe_store_u16(fieldscribe_ruled_value(siemens_mm4_main_setpoint_rule(with), value, 0, 65535), raw); }
+FIELDSCRIBE_STATUS siemens_mm4_main_actual_value_decode(
+    uint16_t raw, const siemens_mm4_with_reference_frequency_and_uss_normalisation *with, double *value)
+{ return fieldscribe_decode_value(siemens_mm4_main_setpoint_rule(with), (int64_t)raw, value); }
+#endif
 
 #endif

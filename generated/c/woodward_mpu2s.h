@@ -7,7 +7,7 @@
  *
  * A raw number is the signed or unsigned integer on the wire. A value is its meaning in the unit. A count is the value
  * as an integer number of 10^-DECIMALS units. Encoding rounds to nearest, halves away from zero, and stores a result
- * only if it returns WOODWARD_MPU2S_OK. Decoding accepts every raw number that a device may send.
+ * only if it returns FIELDSCRIBE_OK. Decoding accepts every raw number that a device may send.
  * fieldscribe.h explains FIELDSCRIBE_NO_FLOAT and FIELDSCRIBE_FLOAT32.
  *
  * The manual leaves open
@@ -30,7 +30,7 @@
 
 #include "fieldscribe.h"
 
-#if FIELDSCRIBE_INTERFACE != 1
+#if FIELDSCRIBE_INTERFACE != 2
 #error "fieldscribe.h is of another version: take the one that was generated with this header."
 #endif
 #if !defined(FIELDSCRIBE_NO_FLOAT) && !defined(FIELDSCRIBE_DOUBLE)
@@ -45,19 +45,6 @@
 #define WOODWARD_MPU2S_DESCRIPTION_DIGEST "77f5919be08f3e15"
 #define WOODWARD_MPU2S_DESCRIPTION 0x77f5919bU /* for #if */
 
-typedef fieldscribe_status woodward_mpu2s_status;
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-typedef fieldscribe_real woodward_mpu2s_real;
-#endif
-#define WOODWARD_MPU2S_OK FIELDSCRIBE_OK
-#define WOODWARD_MPU2S_OUT_OF_RANGE FIELDSCRIBE_OUT_OF_RANGE
-#define WOODWARD_MPU2S_NOT_A_NUMBER FIELDSCRIBE_NOT_A_NUMBER
-#define WOODWARD_MPU2S_UNKNOWN_VALUE FIELDSCRIBE_UNKNOWN_VALUE
-#define WOODWARD_MPU2S_ZERO_FACTOR FIELDSCRIBE_ZERO_FACTOR
-#define WOODWARD_MPU2S_NO_CASE FIELDSCRIBE_NO_CASE
-#define WOODWARD_MPU2S_OVERFLOW FIELDSCRIBE_OVERFLOW
-#define WOODWARD_MPU2S_SPECIAL FIELDSCRIBE_SPECIAL
-#define WOODWARD_MPU2S_MALFORMED FIELDSCRIBE_MALFORMED
 
 /*
  * Times and settings of the line, from the manual. TIMING_..._MS are milliseconds; MIN and MAX are their limits.
@@ -71,7 +58,6 @@ enum {
     WOODWARD_MPU2S_TELEGRAM_VISUALISATION = 0,
 };
 #define WOODWARD_MPU2S_TELEGRAM_VISUALISATION_WORDS 69U
-
 
 /* ---- visualisation data (telegram) ---- */
 
@@ -91,10 +77,6 @@ static inline int32_t woodward_mpu2s_telegram_identification_decode(uint16_t raw
 #define WOODWARD_MPU2S_GENERATOR_FREQUENCY_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_GENERATOR_FREQUENCY_DECIMALS 2
 static inline int32_t woodward_mpu2s_generator_frequency_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real woodward_mpu2s_generator_frequency_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 100); }
-#endif
 
 /* generator active power: raw -32768..32767; 1 W a count; r, mux 0, word 3, nr 3 */
 #define WOODWARD_MPU2S_GENERATOR_ACTIVE_POWER_ADDRESS 0x0002U
@@ -112,14 +94,6 @@ static inline void woodward_mpu2s_generator_active_power_to_words(int16_t raw, u
 { words[0] = (uint16_t)raw; }
 static inline int16_t woodward_mpu2s_generator_active_power_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_active_power_decode(
-    int16_t raw, int8_t generator_power_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_active_power_rule(generator_power_exponent_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /* PGNEXPO generator power exponent: 0..5; r, mux 1, word 1, nr 4 */
 #define WOODWARD_MPU2S_GENERATOR_POWER_EXPONENT_ADDRESS 0x0003U
@@ -170,12 +144,6 @@ static inline void woodward_mpu2s_present_active_power_setpoint_to_words(int16_t
 { words[0] = (uint16_t)raw; }
 static inline int16_t woodward_mpu2s_present_active_power_setpoint_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_present_active_power_setpoint_decode(
-    int16_t raw, const woodward_mpu2s_with_active_power_setpoint_factor_and_generator_power_exponent *with,
-    double *value)
-{ return fieldscribe_decode_value(woodward_mpu2s_present_active_power_setpoint_rule(with), (int64_t)raw, value); }
-#endif
 
 /* PGNWWD active power setpoint factor: 0..65535; r, mux 1, word 3, nr 6 */
 #define WOODWARD_MPU2S_ACTIVE_POWER_SETPOINT_FACTOR_ADDRESS 0x0005U
@@ -194,14 +162,6 @@ static inline fieldscribe_rule woodward_mpu2s_busbar_voltage_l1_l2_rule(int8_t o
 FIELDSCRIBE_STATUS woodward_mpu2s_busbar_voltage_l1_l2_decode_count(
     uint16_t raw, int8_t busbar_voltage_exponent_raw, int64_t *count)
 { return fieldscribe_decode_power((int64_t)raw, (int32_t)busbar_voltage_exponent_raw + 4, 8, count); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_busbar_voltage_l1_l2_decode(
-    uint16_t raw, int8_t busbar_voltage_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(busbar_voltage_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /* mains voltage l1 l2: raw 0..65535; 0.0001 V a count; r, mux 2, word 2, nr 8 */
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_L2_ADDRESS 0x0007U
@@ -210,14 +170,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_busbar_voltage_l1_l2_decode(
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l1_l2_decode_count(
     uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
 { return fieldscribe_decode_power((int64_t)raw, (int32_t)mains_voltage_exponent_raw + 4, 8, count); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l1_l2_decode(
-    uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 #define WOODWARD_MPU2S_DOUBLE_BIT_INACTIVE 0U
 #define WOODWARD_MPU2S_DOUBLE_BIT_ACTIVE 3U
@@ -317,14 +269,6 @@ static inline int32_t woodward_mpu2s_internal_faults_6_decode(uint16_t raw) { re
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l2_l3_decode_count(
     uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
 { return fieldscribe_decode_power((int64_t)raw, (int32_t)generator_voltage_exponent_raw + 4, 8, count); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l2_l3_decode(
-    uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(generator_voltage_exponent_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /* generator voltage l3 l1: raw 0..65535; 0.0001 V a count; r, mux 5, word 1, nr 16 */
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_L1_ADDRESS 0x000FU
@@ -333,14 +277,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l2_l3_decode(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_l1_decode_count(
     uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
 { return fieldscribe_decode_power((int64_t)raw, (int32_t)generator_voltage_exponent_raw + 4, 8, count); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_l1_decode(
-    uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(generator_voltage_exponent_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /* generator voltage l1 n: raw 0..65535; 0.0001 V a count; r, mux 5, word 2, nr 17 */
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_N_ADDRESS 0x0010U
@@ -349,14 +285,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_l1_decode(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l1_n_decode_count(
     uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
 { return fieldscribe_decode_power((int64_t)raw, (int32_t)generator_voltage_exponent_raw + 4, 8, count); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l1_n_decode(
-    uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(generator_voltage_exponent_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /* generator voltage l2 n: raw 0..65535; 0.0001 V a count; r, mux 5, word 3, nr 18 */
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_N_ADDRESS 0x0011U
@@ -365,14 +293,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l1_n_decode(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l2_n_decode_count(
     uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
 { return fieldscribe_decode_power((int64_t)raw, (int32_t)generator_voltage_exponent_raw + 4, 8, count); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l2_n_decode(
-    uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(generator_voltage_exponent_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /* generator voltage l3 n: raw 0..65535; 0.0001 V a count; r, mux 6, word 1, nr 19 */
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_N_ADDRESS 0x0012U
@@ -381,14 +301,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l2_n_decode(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_n_decode_count(
     uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
 { return fieldscribe_decode_power((int64_t)raw, (int32_t)generator_voltage_exponent_raw + 4, 8, count); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_n_decode(
-    uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(generator_voltage_exponent_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /* generator voltage l1 l2: raw 0..65535; 0.0001 V a count; r, mux 6, word 2, nr 20 */
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_L2_ADDRESS 0x0013U
@@ -397,14 +309,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_n_decode(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l1_l2_decode_count(
     uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
 { return fieldscribe_decode_power((int64_t)raw, (int32_t)generator_voltage_exponent_raw + 4, 8, count); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l1_l2_decode(
-    uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(generator_voltage_exponent_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /* reserved word 21: 0..65535; r, mux 6, word 3, nr 21; not generated: reserved by the maker */
 
@@ -420,14 +324,6 @@ static inline fieldscribe_rule woodward_mpu2s_generator_current_l1_rule(int8_t o
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l1_decode_count(
     uint16_t raw, int8_t generator_current_exponent_raw, int64_t *count)
 { return fieldscribe_decode_power((int64_t)raw, (int32_t)generator_current_exponent_raw + 3, 6, count); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l1_decode(
-    uint16_t raw, int8_t generator_current_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_current_l1_rule(generator_current_exponent_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /* generator current l2: raw 0..65535; 0.001 A a count; r, mux 7, word 2, nr 23 */
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L2_ADDRESS 0x0016U
@@ -436,14 +332,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l1_decode(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l2_decode_count(
     uint16_t raw, int8_t generator_current_exponent_raw, int64_t *count)
 { return fieldscribe_decode_power((int64_t)raw, (int32_t)generator_current_exponent_raw + 3, 6, count); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l2_decode(
-    uint16_t raw, int8_t generator_current_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_current_l1_rule(generator_current_exponent_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /* generator current l3: raw 0..65535; 0.001 A a count; r, mux 7, word 3, nr 24 */
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L3_ADDRESS 0x0017U
@@ -452,14 +340,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l2_decode(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l3_decode_count(
     uint16_t raw, int8_t generator_current_exponent_raw, int64_t *count)
 { return fieldscribe_decode_power((int64_t)raw, (int32_t)generator_current_exponent_raw + 3, 6, count); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l3_decode(
-    uint16_t raw, int8_t generator_current_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_current_l1_rule(generator_current_exponent_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /*
  * generator reactive power: raw -32768..32767; values in var; r, mux 8, word 1, nr 25; the manual leaves open which
@@ -478,10 +358,6 @@ static inline void woodward_mpu2s_generator_cos_phi_to_words(int16_t raw, uint16
 { words[0] = (uint16_t)raw; }
 static inline int16_t woodward_mpu2s_generator_cos_phi_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real woodward_mpu2s_generator_cos_phi_decode(int16_t raw)
-{ return fieldscribe_ratio(raw, 100); }
-#endif
 
 /* reserved word 27: 0..65535; r, mux 8, word 3, nr 27; not generated: reserved by the maker */
 
@@ -554,10 +430,6 @@ static inline uint16_t woodward_mpu2s_generator_current_exponent_insert(uint16_t
 #define WOODWARD_MPU2S_BUSBAR_FREQUENCY_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_BUSBAR_FREQUENCY_DECIMALS 2
 static inline int32_t woodward_mpu2s_busbar_frequency_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real woodward_mpu2s_busbar_frequency_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 100); }
-#endif
 
 /*
  * busbar state: 0, 255; r, mux 10, word 3, nr 33; the manual leaves open whether numbers other than 0 and FFh occur
@@ -582,14 +454,6 @@ static inline uint16_t woodward_mpu2s_busbar_state_insert(uint16_t word, uint8_t
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_l3_decode_count(
     uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
 { return fieldscribe_decode_power((int64_t)raw, (int32_t)mains_voltage_exponent_raw + 4, 8, count); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_l3_decode(
-    uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /* mains voltage l3 l1: raw 0..65535; 0.0001 V a count; r, mux 11, word 2, nr 35 */
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_L1_ADDRESS 0x0022U
@@ -598,14 +462,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_l3_decode(
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l3_l1_decode_count(
     uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
 { return fieldscribe_decode_power((int64_t)raw, (int32_t)mains_voltage_exponent_raw + 4, 8, count); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l3_l1_decode(
-    uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /* mains voltage l1 n: raw 0..65535; 0.0001 V a count; r, mux 11, word 3, nr 36 */
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_N_ADDRESS 0x0023U
@@ -614,14 +470,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l3_l1_decode(
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l1_n_decode_count(
     uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
 { return fieldscribe_decode_power((int64_t)raw, (int32_t)mains_voltage_exponent_raw + 4, 8, count); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l1_n_decode(
-    uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /* mains voltage l2 n: raw 0..65535; 0.0001 V a count; r, mux 12, word 1, nr 37 */
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_N_ADDRESS 0x0024U
@@ -630,14 +478,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l1_n_decode(
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_n_decode_count(
     uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
 { return fieldscribe_decode_power((int64_t)raw, (int32_t)mains_voltage_exponent_raw + 4, 8, count); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_n_decode(
-    uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /* mains voltage l3 n: raw 0..65535; 0.0001 V a count; r, mux 12, word 2, nr 38 */
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_N_ADDRESS 0x0025U
@@ -646,14 +486,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_n_decode(
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l3_n_decode_count(
     uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
 { return fieldscribe_decode_power((int64_t)raw, (int32_t)mains_voltage_exponent_raw + 4, 8, count); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l3_n_decode(
-    uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
-        value);
-}
-#endif
 
 /*
  * mains frequency: 0..655.35 Hz; 0.01 Hz a count; r, mux 12, word 3, nr 39; the manual leaves open whether generator,
@@ -663,10 +495,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l3_n_decode(
 #define WOODWARD_MPU2S_MAINS_FREQUENCY_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_MAINS_FREQUENCY_DECIMALS 2
 static inline int32_t woodward_mpu2s_mains_frequency_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real woodward_mpu2s_mains_frequency_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 100); }
-#endif
 
 /* reserved word 40: 0..65535; r, mux 13, word 1, nr 40; not generated: reserved by the maker */
 
@@ -737,10 +565,6 @@ static inline uint32_t woodward_mpu2s_generator_active_energy_from_words(const u
 #define WOODWARD_MPU2S_BATTERY_VOLTAGE_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_BATTERY_VOLTAGE_DECIMALS 1
 static inline int32_t woodward_mpu2s_battery_voltage_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-static inline fieldscribe_real woodward_mpu2s_battery_voltage_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* internal faults 1: 0..65535; r, mux 17, word 2, nr 53 */
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_1_ADDRESS 0x0034U
@@ -1105,12 +929,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_frequency_setpoint_encode_count(int3
 }
 static inline int32_t woodward_mpu2s_generator_frequency_setpoint_decode_count(uint16_t raw)
 { return fieldscribe_halves((int32_t)raw * 125, 5U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_frequency_setpoint_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 256, 10240, 17920, raw); }
-static inline fieldscribe_real woodward_mpu2s_generator_frequency_setpoint_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 256); }
-#endif
 
 /* generator rated frequency: 50..60 Hz; in steps of 0.00390625 Hz; 0.001 Hz a count; rw */
 #define WOODWARD_MPU2S_GENERATOR_RATED_FREQUENCY_ADDRESS 0x000CU
@@ -1127,12 +945,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_frequency_encode_count(int32_t
 }
 static inline int32_t woodward_mpu2s_generator_rated_frequency_decode_count(uint16_t raw)
 { return fieldscribe_halves((int32_t)raw * 125, 5U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_frequency_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 256, 12800, 15360, raw); }
-static inline fieldscribe_real woodward_mpu2s_generator_rated_frequency_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 256); }
-#endif
 
 /* generator vt secondary 100v: 50..125 V; rw */
 #define WOODWARD_MPU2S_GENERATOR_VT_SECONDARY_100V_ADDRESS 0x0009U
@@ -1257,24 +1069,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_100v_decode_count(
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 125, 3, count);
 }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_100v_encode(
-    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
-        WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_RAW_MAX);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        woodward_mpu2s_generator_voltage_setpoint_100v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
-        (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_100v_decode(
-    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /*
  * generator voltage setpoint 400v: raw generator_voltage_factor.raw x 0.125..generator_voltage_factor.raw x 1.2; 0.001
@@ -1306,24 +1100,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_decode_count(
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 125, 3, count);
 }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_encode(
-    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
-        WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MAX);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        woodward_mpu2s_generator_voltage_setpoint_400v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
-        (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_decode(
-    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /*
  * generator rated voltage 100v: raw generator_voltage_factor.raw x 0.0625..min(20480, generator_voltage_factor.raw x
@@ -1355,24 +1131,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_decode_count(
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 125, 3, count);
 }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_encode(
-    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
-        WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MAX);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        woodward_mpu2s_generator_rated_voltage_100v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
-        (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_decode(
-    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /*
  * generator rated voltage 400v: raw generator_voltage_factor.raw x 0.125..generator_voltage_factor.raw x 1.2; 0.001 V a
@@ -1404,24 +1162,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_decode_count(
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 125, 3, count);
 }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_encode(
-    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
-        WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MAX);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        woodward_mpu2s_generator_rated_voltage_400v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
-        (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_decode(
-    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /* generator current transformer ratio: 10..7000 A; rw */
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_TRANSFORMER_RATIO_ADDRESS 0x0002U
@@ -1437,9 +1177,7 @@ enum {
     WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES_SINGLE_PHASE = 0,
     WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES_THREE_PHASE = 1,
 };
-static const char *const woodward_mpu2s_power_measurement_phases_names[] = {
-    "single_phase", "three_phase"
-};
+static const char *const woodward_mpu2s_power_measurement_phases_names[] = {"single_phase", "three_phase"};
 static inline const char *woodward_mpu2s_power_measurement_phases_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(woodward_mpu2s_power_measurement_phases_names, raw); }
 
@@ -1558,12 +1296,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_start_frequency_encode_co
 }
 static inline int32_t woodward_mpu2s_frequency_controller_start_frequency_decode_count(uint16_t raw)
 { return fieldscribe_halves((int32_t)raw * 125, 5U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_start_frequency_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 256, 0, 17920, raw); }
-static inline fieldscribe_real woodward_mpu2s_frequency_controller_start_frequency_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 256); }
-#endif
 
 /* frequency controller start delay: 0..999 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_DELAY_ADDRESS 0x01F1U
@@ -1580,12 +1312,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_start_delay_encode_count(
 }
 static inline int32_t woodward_mpu2s_frequency_controller_start_delay_decode_count(uint16_t raw)
 { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_start_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 0, 49950, raw); }
-static inline fieldscribe_real woodward_mpu2s_frequency_controller_start_delay_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 /*
  * frequency controller ramp: raw 102..5120; values in Hz/s; rw; the manual leaves open whether 1 Hz/s is raw 102.4 or
@@ -1609,12 +1335,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_dead_band_encode_count(in
 }
 static inline int32_t woodward_mpu2s_frequency_controller_dead_band_decode_count(uint16_t raw)
 { return fieldscribe_halves((int32_t)raw * 125, 5U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_dead_band_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 256, 5, 256, raw); }
-static inline fieldscribe_real woodward_mpu2s_frequency_controller_dead_band_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 256); }
-#endif
 
 /* frequency controller pulse time: 10..250 ms; in steps of 2 ms; 1 ms a count; rw */
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PULSE_TIME_ADDRESS 0x002DU
@@ -1631,12 +1351,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_pulse_time_encode_count(i
 }
 static inline int32_t woodward_mpu2s_frequency_controller_pulse_time_decode_count(uint16_t raw)
 { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_pulse_time_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_round_u16(value / (fieldscribe_real)2, 5, 125, raw); }
-static inline fieldscribe_real woodward_mpu2s_frequency_controller_pulse_time_decode(uint16_t raw)
-{ return fieldscribe_ratio((int32_t)raw * 2, 1); }
-#endif
 
 /* frequency controller gain: 0.1..99.9; 0.1 a count; rw */
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_GAIN_ADDRESS 0x002EU
@@ -1648,12 +1362,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_gain_check(uint16_t raw)
 FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_gain_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 1, 999, raw); }
 static inline int32_t woodward_mpu2s_frequency_controller_gain_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_gain_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 1, 999, raw); }
-static inline fieldscribe_real woodward_mpu2s_frequency_controller_gain_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* voltage controller: 0, 3; rw */
 #define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_ADDRESS 0x0013U
@@ -1693,12 +1401,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_voltage_controller_dead_band_encode_count(int3
 }
 static inline int32_t woodward_mpu2s_voltage_controller_dead_band_decode_count(uint16_t raw)
 { return fieldscribe_halves((int32_t)raw * 5, 1U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_voltage_controller_dead_band_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 40, 4, 600, raw); }
-static inline fieldscribe_real woodward_mpu2s_voltage_controller_dead_band_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 40); }
-#endif
 
 /* voltage controller pulse time: 20..250 ms; in steps of 2 ms; 1 ms a count; rw */
 #define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PULSE_TIME_ADDRESS 0x0026U
@@ -1715,12 +1417,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_voltage_controller_pulse_time_encode_count(int
 }
 static inline int32_t woodward_mpu2s_voltage_controller_pulse_time_decode_count(uint16_t raw)
 { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_voltage_controller_pulse_time_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_round_u16(value / (fieldscribe_real)2, 10, 125, raw); }
-static inline fieldscribe_real woodward_mpu2s_voltage_controller_pulse_time_decode(uint16_t raw)
-{ return fieldscribe_ratio((int32_t)raw * 2, 1); }
-#endif
 
 /* voltage controller gain: 0.1..99.9; 0.1 a count; rw */
 #define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_GAIN_ADDRESS 0x0027U
@@ -1731,12 +1427,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_voltage_controller_gain_check(uint16_t raw) { 
 FIELDSCRIBE_STATUS woodward_mpu2s_voltage_controller_gain_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 1, 999, raw); }
 static inline int32_t woodward_mpu2s_voltage_controller_gain_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_voltage_controller_gain_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 1, 999, raw); }
-static inline fieldscribe_real woodward_mpu2s_voltage_controller_gain_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* cos phi controller: 0, 3; rw */
 #define WOODWARD_MPU2S_COS_PHI_CONTROLLER_ADDRESS 0x0013U
@@ -1779,17 +1469,6 @@ static inline void woodward_mpu2s_cos_phi_controller_setpoint_to_words(int16_t r
 { words[0] = (uint16_t)raw; }
 static inline int16_t woodward_mpu2s_cos_phi_controller_setpoint_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_cos_phi_controller_setpoint_encode(fieldscribe_real value, int16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_rounded(fieldscribe_times(value, 100),
-        WOODWARD_MPU2S_COS_PHI_CONTROLLER_SETPOINT_RAW_MIN, WOODWARD_MPU2S_COS_PHI_CONTROLLER_SETPOINT_RAW_MAX);
-    return fieldscribe_keep_s16(fieldscribe_both(whole.status,
-        woodward_mpu2s_cos_phi_controller_setpoint_check((int16_t)whole.number)), (int16_t)whole.number, raw);
-}
-static inline fieldscribe_real woodward_mpu2s_cos_phi_controller_setpoint_decode(int16_t raw)
-{ return fieldscribe_ratio(raw, 100); }
-#endif
 
 /*
  * cos phi controller dead band: 0.5..25 %; 0.1 % a count; rw; the manual leaves open what 100 % is (percent_reference)
@@ -1803,12 +1482,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_cos_phi_controller_dead_band_check(uint16_t ra
 FIELDSCRIBE_STATUS woodward_mpu2s_cos_phi_controller_dead_band_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 5, 250, raw); }
 static inline int32_t woodward_mpu2s_cos_phi_controller_dead_band_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_cos_phi_controller_dead_band_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 5, 250, raw); }
-static inline fieldscribe_real woodward_mpu2s_cos_phi_controller_dead_band_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* cos phi controller gain: 0.1..99.9; 0.1 a count; rw */
 #define WOODWARD_MPU2S_COS_PHI_CONTROLLER_GAIN_ADDRESS 0x002AU
@@ -1819,12 +1492,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_cos_phi_controller_gain_check(uint16_t raw) { 
 FIELDSCRIBE_STATUS woodward_mpu2s_cos_phi_controller_gain_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 1, 999, raw); }
 static inline int32_t woodward_mpu2s_cos_phi_controller_gain_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_cos_phi_controller_gain_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 1, 999, raw); }
-static inline fieldscribe_real woodward_mpu2s_cos_phi_controller_gain_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* active power controller: 0, 3; rw */
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_ADDRESS 0x0013U
@@ -1869,12 +1536,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_maximum_check(uint16_t
 FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_maximum_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 100, 1200, raw); }
 static inline int32_t woodward_mpu2s_active_power_controller_maximum_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_maximum_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 100, 1200, raw); }
-static inline fieldscribe_real woodward_mpu2s_active_power_controller_maximum_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /*
  * active power controller minimum: 0..50 %; 0.1 % a count; rw; the manual leaves open what 100 % is (percent_reference)
@@ -1888,12 +1549,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_minimum_check(uint16_t
 FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_minimum_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 500, raw); }
 static inline int32_t woodward_mpu2s_active_power_controller_minimum_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_minimum_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 500, raw); }
-static inline fieldscribe_real woodward_mpu2s_active_power_controller_minimum_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /*
  * active power controller dead band: 0.1..25 %; 0.1 % a count; rw; the manual leaves open what 100 % is
@@ -1908,12 +1563,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_dead_band_check(uint16
 FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_dead_band_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 1, 250, raw); }
 static inline int32_t woodward_mpu2s_active_power_controller_dead_band_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_dead_band_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 1, 250, raw); }
-static inline fieldscribe_real woodward_mpu2s_active_power_controller_dead_band_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* active power controller gain: 0.1..99.9; 0.1 a count; rw */
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_GAIN_ADDRESS 0x0031U
@@ -1925,12 +1574,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_gain_check(uint16_t ra
 FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_gain_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 1, 999, raw); }
 static inline int32_t woodward_mpu2s_active_power_controller_gain_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_gain_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 1, 999, raw); }
-static inline fieldscribe_real woodward_mpu2s_active_power_controller_gain_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* active power controller reduction factor: 1..9.9; 0.1 a count; rw */
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_REDUCTION_FACTOR_ADDRESS 0x0032U
@@ -1942,12 +1585,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_reduction_factor_check
 FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_reduction_factor_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 10, 99, raw); }
 static inline int32_t woodward_mpu2s_active_power_controller_reduction_factor_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_reduction_factor_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 10, 99, raw); }
-static inline fieldscribe_real woodward_mpu2s_active_power_controller_reduction_factor_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* part load lead setpoint: 5..110 %; 0.1 % a count; rw; the manual leaves open what 100 % is (percent_reference) */
 #define WOODWARD_MPU2S_PART_LOAD_LEAD_SETPOINT_ADDRESS 0x004CU
@@ -1959,12 +1596,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_part_load_lead_setpoint_check(uint16_t raw)
 FIELDSCRIBE_STATUS woodward_mpu2s_part_load_lead_setpoint_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 50, 1100, raw); }
 static inline int32_t woodward_mpu2s_part_load_lead_setpoint_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_part_load_lead_setpoint_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 50, 1100, raw); }
-static inline fieldscribe_real woodward_mpu2s_part_load_lead_setpoint_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* part load lead time: 0..600 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_PART_LOAD_LEAD_TIME_ADDRESS 0x004BU
@@ -1979,12 +1610,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_part_load_lead_time_encode_count(int32_t count
         : FIELDSCRIBE_OUT_OF_RANGE;
 }
 static inline int32_t woodward_mpu2s_part_load_lead_time_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_part_load_lead_time_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 0, 30000, raw); }
-static inline fieldscribe_real woodward_mpu2s_part_load_lead_time_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 /* ---- parameters breaker (parameter) ---- */
 
@@ -2015,9 +1640,7 @@ enum {
     WOODWARD_MPU2S_BREAKER_LOGIC_EXTERNAL = 0,
     WOODWARD_MPU2S_BREAKER_LOGIC_PARALLEL = 1,
 };
-static const char *const woodward_mpu2s_breaker_logic_names[] = {
-    "external", "parallel"
-};
+static const char *const woodward_mpu2s_breaker_logic_names[] = {"external", "parallel"};
 static inline const char *woodward_mpu2s_breaker_logic_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(woodward_mpu2s_breaker_logic_names, raw); }
 
@@ -2051,20 +1674,12 @@ FIELDSCRIBE_STATUS woodward_mpu2s_load_ramp_maximum_time_encode_count(int32_t co
         : FIELDSCRIBE_OUT_OF_RANGE;
 }
 static inline int32_t woodward_mpu2s_load_ramp_maximum_time_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_load_ramp_maximum_time_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 0, 49950, raw); }
-static inline fieldscribe_real woodward_mpu2s_load_ramp_maximum_time_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 enum {
     WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC_PULSE = 0,
     WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC_CONSTANT = 1,
 };
-static const char *const woodward_mpu2s_generator_breaker_signal_logic_names[] = {
-    "pulse", "constant"
-};
+static const char *const woodward_mpu2s_generator_breaker_signal_logic_names[] = {"pulse", "constant"};
 static inline const char *woodward_mpu2s_generator_breaker_signal_logic_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(woodward_mpu2s_generator_breaker_signal_logic_names, raw); }
 
@@ -2087,9 +1702,7 @@ enum {
     WOODWARD_MPU2S_CONTACT_LOGIC_NORMALLY_CLOSED = 0,
     WOODWARD_MPU2S_CONTACT_LOGIC_NORMALLY_OPEN = 1,
 };
-static const char *const woodward_mpu2s_contact_logic_names[] = {
-    "normally_closed", "normally_open"
-};
+static const char *const woodward_mpu2s_contact_logic_names[] = {"normally_closed", "normally_open"};
 static inline const char *woodward_mpu2s_contact_logic_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(woodward_mpu2s_contact_logic_names, raw); }
 
@@ -2131,12 +1744,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_frequency_difference_max_encod
 }
 static inline int32_t woodward_mpu2s_synchronisation_frequency_difference_max_decode_count(uint16_t raw)
 { return fieldscribe_halves((int32_t)raw * 125, 5U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_frequency_difference_max_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 256, 5, 125, raw); }
-static inline fieldscribe_real woodward_mpu2s_synchronisation_frequency_difference_max_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 256); }
-#endif
 
 /*
  * synchronisation frequency difference min: 0..0.48828125 Hz; in steps of 0.00390625 Hz; 0.001 Hz a count; rw; the
@@ -2156,12 +1763,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_frequency_difference_min_encod
 }
 static inline int32_t woodward_mpu2s_synchronisation_frequency_difference_min_decode_count(uint16_t raw)
 { return fieldscribe_halves((int32_t)raw * 125, 5U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_frequency_difference_min_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 256, 0, 125, raw); }
-static inline fieldscribe_real woodward_mpu2s_synchronisation_frequency_difference_min_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 256); }
-#endif
 
 /*
  * synchronisation voltage difference max: 0.1..15 %; in steps of 0.025 %; 0.01 % a count; rw; the manual leaves open
@@ -2181,12 +1782,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_voltage_difference_max_encode_
 }
 static inline int32_t woodward_mpu2s_synchronisation_voltage_difference_max_decode_count(uint16_t raw)
 { return fieldscribe_halves((int32_t)raw * 5, 1U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_voltage_difference_max_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 40, 4, 600, raw); }
-static inline fieldscribe_real woodward_mpu2s_synchronisation_voltage_difference_max_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 40); }
-#endif
 
 /*
  * synchronisation voltage difference min: 0.1..15 %; in steps of 0.025 %; 0.01 % a count; rw; the manual leaves open
@@ -2206,12 +1801,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_voltage_difference_min_encode_
 }
 static inline int32_t woodward_mpu2s_synchronisation_voltage_difference_min_decode_count(uint16_t raw)
 { return fieldscribe_halves((int32_t)raw * 5, 1U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_voltage_difference_min_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 40, 4, 600, raw); }
-static inline fieldscribe_real woodward_mpu2s_synchronisation_voltage_difference_min_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 40); }
-#endif
 
 /* synchronisation pulse time: 0.02..0.26 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_SYNCHRONISATION_PULSE_TIME_ADDRESS 0x001FU
@@ -2227,12 +1816,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_pulse_time_encode_count(int32_
         : FIELDSCRIBE_OUT_OF_RANGE;
 }
 static inline int32_t woodward_mpu2s_synchronisation_pulse_time_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_pulse_time_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 1, 13, raw); }
-static inline fieldscribe_real woodward_mpu2s_synchronisation_pulse_time_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 /* generator breaker pick up time: 40..300 ms; rw */
 #define WOODWARD_MPU2S_GENERATOR_BREAKER_PICK_UP_TIME_ADDRESS 0x0020U
@@ -2248,9 +1831,7 @@ enum {
     WOODWARD_MPU2S_OFF_ON_OFF = 0,
     WOODWARD_MPU2S_OFF_ON_ON = 1,
 };
-static const char *const woodward_mpu2s_off_on_names[] = {
-    "off", "on"
-};
+static const char *const woodward_mpu2s_off_on_names[] = {"off", "on"};
 static inline const char *woodward_mpu2s_off_on_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(woodward_mpu2s_off_on_names, raw); }
 
@@ -2314,12 +1895,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_dead_bus_start_frequency_difference_max_encode
 }
 static inline int32_t woodward_mpu2s_dead_bus_start_frequency_difference_max_decode_count(uint16_t raw)
 { return fieldscribe_halves((int32_t)raw * 125, 5U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_dead_bus_start_frequency_difference_max_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 256, 13, 1280, raw); }
-static inline fieldscribe_real woodward_mpu2s_dead_bus_start_frequency_difference_max_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 256); }
-#endif
 
 /*
  * dead bus start voltage difference max: 0.1..20 %; in steps of 0.025 %; 0.01 % a count; rw; the manual leaves open
@@ -2339,12 +1914,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_dead_bus_start_voltage_difference_max_encode_c
 }
 static inline int32_t woodward_mpu2s_dead_bus_start_voltage_difference_max_decode_count(uint16_t raw)
 { return fieldscribe_halves((int32_t)raw * 5, 1U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_dead_bus_start_voltage_difference_max_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 40, 4, 800, raw); }
-static inline fieldscribe_real woodward_mpu2s_dead_bus_start_voltage_difference_max_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 40); }
-#endif
 
 /* dead bus start maximum time: 0..999 s; rw */
 #define WOODWARD_MPU2S_DEAD_BUS_START_MAXIMUM_TIME_ADDRESS 0x008EU
@@ -2416,12 +1985,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_overload_threshold_parallel_operation_check(ui
 FIELDSCRIBE_STATUS woodward_mpu2s_overload_threshold_parallel_operation_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 800, 1500, raw); }
 static inline int32_t woodward_mpu2s_overload_threshold_parallel_operation_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_overload_threshold_parallel_operation_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 800, 1500, raw); }
-static inline fieldscribe_real woodward_mpu2s_overload_threshold_parallel_operation_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* overload delay parallel operation: 0..99 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_OVERLOAD_DELAY_PARALLEL_OPERATION_ADDRESS 0x0071U
@@ -2438,12 +2001,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_overload_delay_parallel_operation_encode_count
 }
 static inline int32_t woodward_mpu2s_overload_delay_parallel_operation_decode_count(uint16_t raw)
 { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_overload_delay_parallel_operation_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 0, 4950, raw); }
-static inline fieldscribe_real woodward_mpu2s_overload_delay_parallel_operation_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 /*
  * overload threshold isolated operation: 80..150 %; 0.1 % a count; rw; the manual leaves open what 100 % is
@@ -2458,12 +2015,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_overload_threshold_isolated_operation_check(ui
 FIELDSCRIBE_STATUS woodward_mpu2s_overload_threshold_isolated_operation_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 800, 1500, raw); }
 static inline int32_t woodward_mpu2s_overload_threshold_isolated_operation_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_overload_threshold_isolated_operation_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 800, 1500, raw); }
-static inline fieldscribe_real woodward_mpu2s_overload_threshold_isolated_operation_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* overload delay isolated operation: 0..99 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_OVERLOAD_DELAY_ISOLATED_OPERATION_ADDRESS 0x007EU
@@ -2480,12 +2031,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_overload_delay_isolated_operation_encode_count
 }
 static inline int32_t woodward_mpu2s_overload_delay_isolated_operation_decode_count(uint16_t raw)
 { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_overload_delay_isolated_operation_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 0, 4950, raw); }
-static inline fieldscribe_real woodward_mpu2s_overload_delay_isolated_operation_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 /* generator reverse power monitoring: 0, 1; rw */
 #define WOODWARD_MPU2S_GENERATOR_REVERSE_POWER_MONITORING_ADDRESS 0x000FU
@@ -2523,12 +2068,6 @@ static inline void woodward_mpu2s_reverse_power_threshold_to_words(int16_t raw, 
 { words[0] = (uint16_t)raw; }
 static inline int16_t woodward_mpu2s_reverse_power_threshold_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_reverse_power_threshold_encode(fieldscribe_real value, int16_t *raw)
-{ return fieldscribe_scale_s16(value, 10, -990, 990, raw); }
-static inline fieldscribe_real woodward_mpu2s_reverse_power_threshold_decode(int16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* reverse power delay: 0..99.9 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_REVERSE_POWER_DELAY_ADDRESS 0x0073U
@@ -2543,12 +2082,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_reverse_power_delay_encode_count(int32_t count
         : FIELDSCRIBE_OUT_OF_RANGE;
 }
 static inline int32_t woodward_mpu2s_reverse_power_delay_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_reverse_power_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 0, 4995, raw); }
-static inline fieldscribe_real woodward_mpu2s_reverse_power_delay_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 /* generator unbalanced load monitoring: 0, 1; rw */
 #define WOODWARD_MPU2S_GENERATOR_UNBALANCED_LOAD_MONITORING_ADDRESS 0x000FU
@@ -2579,12 +2112,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_unbalanced_load_threshold_check(uint16_t raw)
 FIELDSCRIBE_STATUS woodward_mpu2s_unbalanced_load_threshold_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 1000, raw); }
 static inline int32_t woodward_mpu2s_unbalanced_load_threshold_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_unbalanced_load_threshold_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 1000, raw); }
-static inline fieldscribe_real woodward_mpu2s_unbalanced_load_threshold_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* unbalanced load delay: 0.02..99.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_UNBALANCED_LOAD_DELAY_ADDRESS 0x0075U
@@ -2599,12 +2126,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_unbalanced_load_delay_encode_count(int32_t cou
         : FIELDSCRIBE_OUT_OF_RANGE;
 }
 static inline int32_t woodward_mpu2s_unbalanced_load_delay_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_unbalanced_load_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 1, 4999, raw); }
-static inline fieldscribe_real woodward_mpu2s_unbalanced_load_delay_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 /* generator overcurrent monitoring: 0, 1; rw */
 #define WOODWARD_MPU2S_GENERATOR_OVERCURRENT_MONITORING_ADDRESS 0x000FU
@@ -2631,12 +2152,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_overcurrent_1_threshold_check(uint16_t raw)
 FIELDSCRIBE_STATUS woodward_mpu2s_overcurrent_1_threshold_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 3000, raw); }
 static inline int32_t woodward_mpu2s_overcurrent_1_threshold_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_overcurrent_1_threshold_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 3000, raw); }
-static inline fieldscribe_real woodward_mpu2s_overcurrent_1_threshold_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* overcurrent 1 delay: 0.02..99.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_OVERCURRENT_1_DELAY_ADDRESS 0x0077U
@@ -2651,12 +2166,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_overcurrent_1_delay_encode_count(int32_t count
         : FIELDSCRIBE_OUT_OF_RANGE;
 }
 static inline int32_t woodward_mpu2s_overcurrent_1_delay_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_overcurrent_1_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 1, 4999, raw); }
-static inline fieldscribe_real woodward_mpu2s_overcurrent_1_delay_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 /* overcurrent 2 threshold: 0..300 %; 0.1 % a count; rw; the manual leaves open what 100 % is (percent_reference) */
 #define WOODWARD_MPU2S_OVERCURRENT_2_THRESHOLD_ADDRESS 0x01ACU
@@ -2668,12 +2177,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_overcurrent_2_threshold_check(uint16_t raw)
 FIELDSCRIBE_STATUS woodward_mpu2s_overcurrent_2_threshold_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 0, 3000, raw); }
 static inline int32_t woodward_mpu2s_overcurrent_2_threshold_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_overcurrent_2_threshold_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 0, 3000, raw); }
-static inline fieldscribe_real woodward_mpu2s_overcurrent_2_threshold_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* overcurrent 2 delay: 0.02..99.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_OVERCURRENT_2_DELAY_ADDRESS 0x01ADU
@@ -2688,12 +2191,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_overcurrent_2_delay_encode_count(int32_t count
         : FIELDSCRIBE_OUT_OF_RANGE;
 }
 static inline int32_t woodward_mpu2s_overcurrent_2_delay_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_overcurrent_2_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 1, 4999, raw); }
-static inline fieldscribe_real woodward_mpu2s_overcurrent_2_delay_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 /* inverse time overcurrent: 0, 1; rw */
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_ADDRESS 0x00F8U
@@ -2751,12 +2248,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_tp_encode_count(int32
         : FIELDSCRIBE_OUT_OF_RANGE;
 }
 static inline int32_t woodward_mpu2s_inverse_time_overcurrent_tp_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_tp_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 0, 99, raw); }
-static inline fieldscribe_real woodward_mpu2s_inverse_time_overcurrent_tp_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 /* inverse time overcurrent ip: 0.1..3; 0.001 a count; rw */
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_IP_ADDRESS 0x012CU
@@ -2768,12 +2259,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_ip_check(uint16_t raw
 FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_ip_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 100, 3000, raw); }
 static inline int32_t woodward_mpu2s_inverse_time_overcurrent_ip_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_ip_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 1000, 100, 3000, raw); }
-static inline fieldscribe_real woodward_mpu2s_inverse_time_overcurrent_ip_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 1000); }
-#endif
 
 /* inverse time overcurrent istart: 1..3; 0.001 a count; rw */
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_ISTART_ADDRESS 0x012DU
@@ -2785,12 +2270,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_istart_check(uint16_t
 FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_istart_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 1000, 3000, raw); }
 static inline int32_t woodward_mpu2s_inverse_time_overcurrent_istart_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_istart_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 1000, 1000, 3000, raw); }
-static inline fieldscribe_real woodward_mpu2s_inverse_time_overcurrent_istart_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 1000); }
-#endif
 
 /* inverse time overcurrent by voltage: 0, 1; rw */
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_BY_VOLTAGE_ADDRESS 0x00F8U
@@ -2858,12 +2337,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overfrequency_1_threshold_encode_cou
 }
 static inline int32_t woodward_mpu2s_generator_overfrequency_1_threshold_decode_count(uint16_t raw)
 { return fieldscribe_halves((int32_t)raw * 125, 5U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_overfrequency_1_threshold_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 256, 10240, 21760, raw); }
-static inline fieldscribe_real woodward_mpu2s_generator_overfrequency_1_threshold_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 256); }
-#endif
 
 /* generator overfrequency 1 delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_DELAY_ADDRESS 0x0069U
@@ -2880,12 +2353,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overfrequency_1_delay_encode_count(i
 }
 static inline int32_t woodward_mpu2s_generator_overfrequency_1_delay_decode_count(uint16_t raw)
 { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_overfrequency_1_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 1, 499, raw); }
-static inline fieldscribe_real woodward_mpu2s_generator_overfrequency_1_delay_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 /* generator overfrequency 2 threshold: 40..85 Hz; in steps of 0.00390625 Hz; 0.001 Hz a count; rw */
 #define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_THRESHOLD_ADDRESS 0x0120U
@@ -2902,12 +2369,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overfrequency_2_threshold_encode_cou
 }
 static inline int32_t woodward_mpu2s_generator_overfrequency_2_threshold_decode_count(uint16_t raw)
 { return fieldscribe_halves((int32_t)raw * 125, 5U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_overfrequency_2_threshold_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 256, 10240, 21760, raw); }
-static inline fieldscribe_real woodward_mpu2s_generator_overfrequency_2_threshold_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 256); }
-#endif
 
 /* generator overfrequency 2 delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_DELAY_ADDRESS 0x0121U
@@ -2924,12 +2385,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overfrequency_2_delay_encode_count(i
 }
 static inline int32_t woodward_mpu2s_generator_overfrequency_2_delay_decode_count(uint16_t raw)
 { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_overfrequency_2_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 1, 499, raw); }
-static inline fieldscribe_real woodward_mpu2s_generator_overfrequency_2_delay_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 /* generator underfrequency monitoring: 0, 1; rw */
 #define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_MONITORING_ADDRESS 0x0136U
@@ -2965,12 +2420,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_underfrequency_1_threshold_encode_co
 }
 static inline int32_t woodward_mpu2s_generator_underfrequency_1_threshold_decode_count(uint16_t raw)
 { return fieldscribe_halves((int32_t)raw * 125, 5U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_underfrequency_1_threshold_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 256, 10240, 21760, raw); }
-static inline fieldscribe_real woodward_mpu2s_generator_underfrequency_1_threshold_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 256); }
-#endif
 
 /* generator underfrequency 1 delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_DELAY_ADDRESS 0x006BU
@@ -2987,12 +2436,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_underfrequency_1_delay_encode_count(
 }
 static inline int32_t woodward_mpu2s_generator_underfrequency_1_delay_decode_count(uint16_t raw)
 { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_underfrequency_1_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 1, 499, raw); }
-static inline fieldscribe_real woodward_mpu2s_generator_underfrequency_1_delay_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 /* generator underfrequency 2 threshold: 40..85 Hz; in steps of 0.00390625 Hz; 0.001 Hz a count; rw */
 #define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_THRESHOLD_ADDRESS 0x0122U
@@ -3009,12 +2452,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_underfrequency_2_threshold_encode_co
 }
 static inline int32_t woodward_mpu2s_generator_underfrequency_2_threshold_decode_count(uint16_t raw)
 { return fieldscribe_halves((int32_t)raw * 125, 5U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_underfrequency_2_threshold_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 256, 10240, 21760, raw); }
-static inline fieldscribe_real woodward_mpu2s_generator_underfrequency_2_threshold_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 256); }
-#endif
 
 /* generator underfrequency 2 delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_DELAY_ADDRESS 0x0123U
@@ -3031,12 +2468,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_underfrequency_2_delay_encode_count(
 }
 static inline int32_t woodward_mpu2s_generator_underfrequency_2_delay_decode_count(uint16_t raw)
 { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_underfrequency_2_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 1, 499, raw); }
-static inline fieldscribe_real woodward_mpu2s_generator_underfrequency_2_delay_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 /* generator overvoltage monitoring: 0, 1; rw */
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_MONITORING_ADDRESS 0x0136U
@@ -3084,25 +2515,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_decode_
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 125, 3, count);
 }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_encode(
-    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
-        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MIN,
-        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MAX);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        woodward_mpu2s_generator_overvoltage_1_threshold_100v_check((uint16_t)whole.number,
-        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_decode(
-    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /*
  * generator overvoltage 1 threshold 400v: raw generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw x 1.3;
@@ -3135,25 +2547,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_decode_
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 125, 3, count);
 }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_encode(
-    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
-        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MIN,
-        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MAX);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        woodward_mpu2s_generator_overvoltage_1_threshold_400v_check((uint16_t)whole.number,
-        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_decode(
-    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /* generator overvoltage 1 delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_DELAY_ADDRESS 0x006DU
@@ -3170,12 +2563,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_delay_encode_count(int
 }
 static inline int32_t woodward_mpu2s_generator_overvoltage_1_delay_decode_count(uint16_t raw)
 { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 1, 499, raw); }
-static inline fieldscribe_real woodward_mpu2s_generator_overvoltage_1_delay_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 /*
  * generator overvoltage 2 threshold 100v: raw generator_voltage_factor.raw x 0.05..min(24576,
@@ -3208,25 +2595,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_decode_
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 125, 3, count);
 }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_encode(
-    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
-        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MIN,
-        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MAX);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        woodward_mpu2s_generator_overvoltage_2_threshold_100v_check((uint16_t)whole.number,
-        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_decode(
-    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /*
  * generator overvoltage 2 threshold 400v: raw generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw x 1.3;
@@ -3259,25 +2627,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_decode_
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 125, 3, count);
 }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_encode(
-    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
-        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MIN,
-        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MAX);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        woodward_mpu2s_generator_overvoltage_2_threshold_400v_check((uint16_t)whole.number,
-        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_decode(
-    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /* generator overvoltage 2 delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_DELAY_ADDRESS 0x0125U
@@ -3294,12 +2643,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_delay_encode_count(int
 }
 static inline int32_t woodward_mpu2s_generator_overvoltage_2_delay_decode_count(uint16_t raw)
 { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 1, 499, raw); }
-static inline fieldscribe_real woodward_mpu2s_generator_overvoltage_2_delay_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 /* generator undervoltage monitoring: 0, 1; rw */
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_MONITORING_ADDRESS 0x0136U
@@ -3351,25 +2694,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_decode
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 125, 3, count);
 }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_encode(
-    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
-        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MIN,
-        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MAX);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        woodward_mpu2s_generator_undervoltage_1_threshold_100v_check((uint16_t)whole.number,
-        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_decode(
-    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /*
  * generator undervoltage 1 threshold 400v: raw generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw x 1.3;
@@ -3402,25 +2726,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_decode
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 125, 3, count);
 }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_encode(
-    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
-        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MIN,
-        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MAX);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        woodward_mpu2s_generator_undervoltage_1_threshold_400v_check((uint16_t)whole.number,
-        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_decode(
-    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /* generator undervoltage 1 delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_DELAY_ADDRESS 0x006FU
@@ -3437,12 +2742,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_delay_encode_count(in
 }
 static inline int32_t woodward_mpu2s_generator_undervoltage_1_delay_decode_count(uint16_t raw)
 { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 1, 499, raw); }
-static inline fieldscribe_real woodward_mpu2s_generator_undervoltage_1_delay_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 /*
  * generator undervoltage 2 threshold 100v: raw generator_voltage_factor.raw x 0.05..min(24576,
@@ -3475,25 +2774,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_decode
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 125, 3, count);
 }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_encode(
-    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
-        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MIN,
-        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MAX);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        woodward_mpu2s_generator_undervoltage_2_threshold_100v_check((uint16_t)whole.number,
-        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_decode(
-    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /*
  * generator undervoltage 2 threshold 400v: raw generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw x 1.3;
@@ -3526,25 +2806,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_decode
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 125, 3, count);
 }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_encode(
-    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
-        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MIN,
-        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MAX);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        woodward_mpu2s_generator_undervoltage_2_threshold_400v_check((uint16_t)whole.number,
-        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_decode(
-    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /* generator undervoltage 2 delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_DELAY_ADDRESS 0x0127U
@@ -3561,12 +2822,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_delay_encode_count(in
 }
 static inline int32_t woodward_mpu2s_generator_undervoltage_2_delay_decode_count(uint16_t raw)
 { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 1, 499, raw); }
-static inline fieldscribe_real woodward_mpu2s_generator_undervoltage_2_delay_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 /* ---- parameters monitoring mains (parameter) ---- */
 
@@ -3600,12 +2855,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_overfrequency_threshold_encode_count(int
 }
 static inline int32_t woodward_mpu2s_mains_overfrequency_threshold_decode_count(uint16_t raw)
 { return fieldscribe_halves((int32_t)raw * 125, 5U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_mains_overfrequency_threshold_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 256, 10240, 17920, raw); }
-static inline fieldscribe_real woodward_mpu2s_mains_overfrequency_threshold_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 256); }
-#endif
 
 /* mains overfrequency delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_MAINS_OVERFREQUENCY_DELAY_ADDRESS 0x0058U
@@ -3621,12 +2870,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_overfrequency_delay_encode_count(int32_t
         : FIELDSCRIBE_OUT_OF_RANGE;
 }
 static inline int32_t woodward_mpu2s_mains_overfrequency_delay_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_mains_overfrequency_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 1, 499, raw); }
-static inline fieldscribe_real woodward_mpu2s_mains_overfrequency_delay_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 /* mains underfrequency threshold: 40..70 Hz; in steps of 0.00390625 Hz; 0.001 Hz a count; rw */
 #define WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_THRESHOLD_ADDRESS 0x0059U
@@ -3643,12 +2886,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_underfrequency_threshold_encode_count(in
 }
 static inline int32_t woodward_mpu2s_mains_underfrequency_threshold_decode_count(uint16_t raw)
 { return fieldscribe_halves((int32_t)raw * 125, 5U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_mains_underfrequency_threshold_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 256, 10240, 17920, raw); }
-static inline fieldscribe_real woodward_mpu2s_mains_underfrequency_threshold_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 256); }
-#endif
 
 /* mains underfrequency delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_DELAY_ADDRESS 0x005AU
@@ -3664,12 +2901,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_underfrequency_delay_encode_count(int32_
         : FIELDSCRIBE_OUT_OF_RANGE;
 }
 static inline int32_t woodward_mpu2s_mains_underfrequency_delay_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_mains_underfrequency_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 1, 499, raw); }
-static inline fieldscribe_real woodward_mpu2s_mains_underfrequency_delay_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 /* mains voltage monitoring: 0, 1; rw */
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_MONITORING_ADDRESS 0x000FU
@@ -3721,25 +2952,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_100v_decode_count(
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw),
         (int64_t)raw, 125, 3, count);
 }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_100v_encode(
-    double value, uint16_t mains_voltage_factor_raw, uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw), value,
-        WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_RAW_MIN,
-        WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_RAW_MAX);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        woodward_mpu2s_mains_overvoltage_threshold_100v_check((uint16_t)whole.number, mains_voltage_factor_raw)),
-        (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_100v_decode(
-    uint16_t raw, uint16_t mains_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /*
  * mains overvoltage threshold 400v: raw mains_voltage_factor.raw x 0.05..mains_voltage_factor.raw x 1.3; 0.001 V a
@@ -3772,25 +2984,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_decode_count(
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw),
         (int64_t)raw, 125, 3, count);
 }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_encode(
-    double value, uint16_t mains_voltage_factor_raw, uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw), value,
-        WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MIN,
-        WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MAX);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        woodward_mpu2s_mains_overvoltage_threshold_400v_check((uint16_t)whole.number, mains_voltage_factor_raw)),
-        (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_decode(
-    uint16_t raw, uint16_t mains_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /* mains overvoltage delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_MAINS_OVERVOLTAGE_DELAY_ADDRESS 0x005CU
@@ -3805,12 +2998,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_delay_encode_count(int32_t c
         : FIELDSCRIBE_OUT_OF_RANGE;
 }
 static inline int32_t woodward_mpu2s_mains_overvoltage_delay_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 1, 499, raw); }
-static inline fieldscribe_real woodward_mpu2s_mains_overvoltage_delay_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 /*
  * mains undervoltage threshold 100v: raw mains_voltage_factor.raw x 0.05..min(24576, mains_voltage_factor.raw x 0.375);
@@ -3843,25 +3030,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_decode_count
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw),
         (int64_t)raw, 125, 3, count);
 }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_encode(
-    double value, uint16_t mains_voltage_factor_raw, uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw), value,
-        WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MIN,
-        WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MAX);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        woodward_mpu2s_mains_undervoltage_threshold_100v_check((uint16_t)whole.number, mains_voltage_factor_raw)),
-        (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_decode(
-    uint16_t raw, uint16_t mains_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /*
  * mains undervoltage threshold 400v: raw mains_voltage_factor.raw x 0.05..mains_voltage_factor.raw x 1.3; 0.001 V a
@@ -3894,25 +3062,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_decode_count
     return fieldscribe_decode_ratio(woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw),
         (int64_t)raw, 125, 3, count);
 }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_encode(
-    double value, uint16_t mains_voltage_factor_raw, uint16_t *raw)
-{
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw), value,
-        WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MIN,
-        WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MAX);
-    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
-        woodward_mpu2s_mains_undervoltage_threshold_400v_check((uint16_t)whole.number, mains_voltage_factor_raw)),
-        (uint16_t)whole.number, raw);
-}
-FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_decode(
-    uint16_t raw, uint16_t mains_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /* mains undervoltage delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_DELAY_ADDRESS 0x005EU
@@ -3928,12 +3077,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_delay_encode_count(int32_t 
         : FIELDSCRIBE_OUT_OF_RANGE;
 }
 static inline int32_t woodward_mpu2s_mains_undervoltage_delay_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 1, 499, raw); }
-static inline fieldscribe_real woodward_mpu2s_mains_undervoltage_delay_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 /* phase shift monitoring: 0, 1; rw */
 #define WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_ADDRESS 0x000FU
@@ -4025,12 +3168,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_threshold_inductive_check(uint1
 FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_threshold_inductive_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 50, 1000, raw); }
 static inline int32_t woodward_mpu2s_reactive_power_threshold_inductive_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_threshold_inductive_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 50, 1000, raw); }
-static inline fieldscribe_real woodward_mpu2s_reactive_power_threshold_inductive_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /*
  * reactive power delay inductive: 0..999 s; in steps of 0.02 s; 0.01 s a count; rw; the manual leaves open whether the
@@ -4050,12 +3187,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_delay_inductive_encode_count(in
 }
 static inline int32_t woodward_mpu2s_reactive_power_delay_inductive_decode_count(uint16_t raw)
 { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_delay_inductive_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 0, 49950, raw); }
-static inline fieldscribe_real woodward_mpu2s_reactive_power_delay_inductive_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 /*
  * reactive power threshold capacitive: 5..100 %; 0.1 % a count; rw; the manual leaves open what 100 % is
@@ -4070,12 +3201,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_threshold_capacitive_check(uint
 FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_threshold_capacitive_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 50, 1000, raw); }
 static inline int32_t woodward_mpu2s_reactive_power_threshold_capacitive_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_threshold_capacitive_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 50, 1000, raw); }
-static inline fieldscribe_real woodward_mpu2s_reactive_power_threshold_capacitive_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /*
  * reactive power delay capacitive: 0..999 s; in steps of 0.02 s; 0.01 s a count; rw; the manual leaves open whether the
@@ -4095,12 +3220,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_delay_capacitive_encode_count(i
 }
 static inline int32_t woodward_mpu2s_reactive_power_delay_capacitive_decode_count(uint16_t raw)
 { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_delay_capacitive_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 0, 49950, raw); }
-static inline fieldscribe_real woodward_mpu2s_reactive_power_delay_capacitive_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 /* earth fault monitoring: 0, 1; rw */
 #define WOODWARD_MPU2S_EARTH_FAULT_MONITORING_ADDRESS 0x00F8U
@@ -4126,12 +3245,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_earth_fault_threshold_check(uint16_t raw) { re
 FIELDSCRIBE_STATUS woodward_mpu2s_earth_fault_threshold_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 50, 1000, raw); }
 static inline int32_t woodward_mpu2s_earth_fault_threshold_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_earth_fault_threshold_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 50, 1000, raw); }
-static inline fieldscribe_real woodward_mpu2s_earth_fault_threshold_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /* earth fault delay: 0.02..99.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_EARTH_FAULT_DELAY_ADDRESS 0x0134U
@@ -4146,12 +3259,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_earth_fault_delay_encode_count(int32_t count, 
         : FIELDSCRIBE_OUT_OF_RANGE;
 }
 static inline int32_t woodward_mpu2s_earth_fault_delay_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_earth_fault_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 1, 4999, raw); }
-static inline fieldscribe_real woodward_mpu2s_earth_fault_delay_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 /* battery undervoltage threshold: 9.5..30 V; 0.1 V a count; rw */
 #define WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_THRESHOLD_ADDRESS 0x0089U
@@ -4163,12 +3270,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_battery_undervoltage_threshold_check(uint16_t 
 FIELDSCRIBE_STATUS woodward_mpu2s_battery_undervoltage_threshold_encode_count(int32_t count, uint16_t *raw)
 { return fieldscribe_encode_u16(count, 95, 300, raw); }
 static inline int32_t woodward_mpu2s_battery_undervoltage_threshold_decode_count(uint16_t raw) { return raw; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_battery_undervoltage_threshold_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 10, 95, 300, raw); }
-static inline fieldscribe_real woodward_mpu2s_battery_undervoltage_threshold_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 10); }
-#endif
 
 /*
  * battery undervoltage delay: 0.02..99 s; in steps of 0.02 s; 0.01 s a count; rw; erratum
@@ -4187,12 +3288,6 @@ FIELDSCRIBE_STATUS woodward_mpu2s_battery_undervoltage_delay_encode_count(int32_
         : FIELDSCRIBE_OUT_OF_RANGE;
 }
 static inline int32_t woodward_mpu2s_battery_undervoltage_delay_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_battery_undervoltage_delay_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 50, 1, 4950, raw); }
-static inline fieldscribe_real woodward_mpu2s_battery_undervoltage_delay_decode(uint16_t raw)
-{ return fieldscribe_ratio(raw, 50); }
-#endif
 
 /* ---- parameters inputs (parameter) ---- */
 
@@ -4715,9 +3810,7 @@ enum {
     WOODWARD_MPU2S_CURRENT_RANGE_MA_4_20 = 0,
     WOODWARD_MPU2S_CURRENT_RANGE_MA_0_20 = 1,
 };
-static const char *const woodward_mpu2s_current_range_names[] = {
-    "ma_4_20", "ma_0_20"
-};
+static const char *const woodward_mpu2s_current_range_names[] = {"ma_4_20", "ma_0_20"};
 static inline const char *woodward_mpu2s_current_range_name(int32_t raw)
 { return FIELDSCRIBE_NAME_AT(woodward_mpu2s_current_range_names, raw); }
 
@@ -4781,21 +3874,6 @@ static inline void woodward_mpu2s_analog_output_1_value_at_0_percent_to_words(in
 { words[0] = (uint16_t)raw; }
 static inline int16_t woodward_mpu2s_analog_output_1_value_at_0_percent_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_0_percent_encode(
-    double value, uint16_t analog_output_1_source_raw, int16_t *raw)
-{
-    return fieldscribe_store_s16(
-        fieldscribe_ruled_value(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
-        value, -9999, 9999), raw);
-}
-FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_0_percent_decode(
-    int16_t raw, uint16_t analog_output_1_source_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /*
  * analog output 1 value at 100 percent: raw -9999..9999; 0.01 a count; rw; the manual leaves open the scale for the
@@ -4824,21 +3902,6 @@ static inline void woodward_mpu2s_analog_output_1_value_at_100_percent_to_words(
 { words[0] = (uint16_t)raw; }
 static inline int16_t woodward_mpu2s_analog_output_1_value_at_100_percent_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_100_percent_encode(
-    double value, uint16_t analog_output_1_source_raw, int16_t *raw)
-{
-    return fieldscribe_store_s16(
-        fieldscribe_ruled_value(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
-        value, -9999, 9999), raw);
-}
-FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_100_percent_decode(
-    int16_t raw, uint16_t analog_output_1_source_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /*
  * analog output 2 source: 0..23; rw; the manual leaves open whether 23 is a source (analog_source_23), whether the
@@ -4894,21 +3957,6 @@ static inline void woodward_mpu2s_analog_output_2_value_at_0_percent_to_words(in
 { words[0] = (uint16_t)raw; }
 static inline int16_t woodward_mpu2s_analog_output_2_value_at_0_percent_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_0_percent_encode(
-    double value, uint16_t analog_output_2_source_raw, int16_t *raw)
-{
-    return fieldscribe_store_s16(
-        fieldscribe_ruled_value(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_2_source_raw),
-        value, -9999, 9999), raw);
-}
-FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_0_percent_decode(
-    int16_t raw, uint16_t analog_output_2_source_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_2_source_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /*
  * analog output 2 value at 100 percent: raw -9999..9999; 0.01 a count; rw; the manual leaves open the scale for the
@@ -4937,21 +3985,6 @@ static inline void woodward_mpu2s_analog_output_2_value_at_100_percent_to_words(
 { words[0] = (uint16_t)raw; }
 static inline int16_t woodward_mpu2s_analog_output_2_value_at_100_percent_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
-#ifndef FIELDSCRIBE_NO_FLOAT
-FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_100_percent_encode(
-    double value, uint16_t analog_output_2_source_raw, int16_t *raw)
-{
-    return fieldscribe_store_s16(
-        fieldscribe_ruled_value(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_2_source_raw),
-        value, -9999, 9999), raw);
-}
-FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_100_percent_decode(
-    int16_t raw, uint16_t analog_output_2_source_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_2_source_raw),
-        (int64_t)raw, value);
-}
-#endif
 
 /* ---- parameters relays (parameter) ---- */
 
@@ -6036,9 +5069,729 @@ FIELDSCRIBE_STATUS woodward_mpu2s_monitoring_start_frequency_encode_count(int32_
 }
 static inline int32_t woodward_mpu2s_monitoring_start_frequency_decode_count(uint16_t raw)
 { return fieldscribe_halves((int32_t)raw * 125, 5U); }
+
+/* ---- Values in floating point ---- */
+
 #ifndef FIELDSCRIBE_NO_FLOAT
+static inline fieldscribe_real woodward_mpu2s_generator_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 100); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_active_power_decode(
+    int16_t raw, int8_t generator_power_exponent_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_generator_active_power_rule(generator_power_exponent_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_present_active_power_setpoint_decode(
+    int16_t raw, const woodward_mpu2s_with_active_power_setpoint_factor_and_generator_power_exponent *with,
+    double *value)
+{ return fieldscribe_decode_value(woodward_mpu2s_present_active_power_setpoint_rule(with), (int64_t)raw, value); }
+FIELDSCRIBE_STATUS woodward_mpu2s_busbar_voltage_l1_l2_decode(
+    uint16_t raw, int8_t busbar_voltage_exponent_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(busbar_voltage_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l1_l2_decode(
+    uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l2_l3_decode(
+    uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(generator_voltage_exponent_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_l1_decode(
+    uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(generator_voltage_exponent_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l1_n_decode(
+    uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(generator_voltage_exponent_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l2_n_decode(
+    uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(generator_voltage_exponent_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_n_decode(
+    uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(generator_voltage_exponent_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l1_l2_decode(
+    uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(generator_voltage_exponent_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l1_decode(
+    uint16_t raw, int8_t generator_current_exponent_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_generator_current_l1_rule(generator_current_exponent_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l2_decode(
+    uint16_t raw, int8_t generator_current_exponent_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_generator_current_l1_rule(generator_current_exponent_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l3_decode(
+    uint16_t raw, int8_t generator_current_exponent_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_generator_current_l1_rule(generator_current_exponent_raw),
+        (int64_t)raw, value);
+}
+static inline fieldscribe_real woodward_mpu2s_generator_cos_phi_decode(int16_t raw)
+{ return fieldscribe_ratio(raw, 100); }
+static inline fieldscribe_real woodward_mpu2s_busbar_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 100); }
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_l3_decode(
+    uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l3_l1_decode(
+    uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l1_n_decode(
+    uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_n_decode(
+    uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+        value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l3_n_decode(
+    uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+        value);
+}
+static inline fieldscribe_real woodward_mpu2s_mains_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 100); }
+static inline fieldscribe_real woodward_mpu2s_battery_voltage_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_frequency_setpoint_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 256), 10240, 17920, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_frequency_setpoint_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 256), 12800, 15360, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_rated_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_100v_encode(
+    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_voltage_setpoint_100v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
+        (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_100v_decode(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_encode(
+    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_voltage_setpoint_400v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
+        (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_decode(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_encode(
+    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_rated_voltage_100v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
+        (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_decode(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_encode(
+    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_rated_voltage_400v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
+        (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_decode(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_start_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 256), 0, 17920, raw); }
+static inline fieldscribe_real woodward_mpu2s_frequency_controller_start_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
+FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_start_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 0, 49950, raw); }
+static inline fieldscribe_real woodward_mpu2s_frequency_controller_start_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_dead_band_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 256), 5, 256, raw); }
+static inline fieldscribe_real woodward_mpu2s_frequency_controller_dead_band_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
+FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_pulse_time_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(value / (fieldscribe_real)2, 5, 125, raw); }
+static inline fieldscribe_real woodward_mpu2s_frequency_controller_pulse_time_decode(uint16_t raw)
+{ return fieldscribe_ratio((int32_t)raw * 2, 1); }
+FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_gain_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 1, 999, raw); }
+static inline fieldscribe_real woodward_mpu2s_frequency_controller_gain_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS woodward_mpu2s_voltage_controller_dead_band_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 40), 4, 600, raw); }
+static inline fieldscribe_real woodward_mpu2s_voltage_controller_dead_band_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 40); }
+FIELDSCRIBE_STATUS woodward_mpu2s_voltage_controller_pulse_time_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(value / (fieldscribe_real)2, 10, 125, raw); }
+static inline fieldscribe_real woodward_mpu2s_voltage_controller_pulse_time_decode(uint16_t raw)
+{ return fieldscribe_ratio((int32_t)raw * 2, 1); }
+FIELDSCRIBE_STATUS woodward_mpu2s_voltage_controller_gain_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 1, 999, raw); }
+static inline fieldscribe_real woodward_mpu2s_voltage_controller_gain_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS woodward_mpu2s_cos_phi_controller_setpoint_encode(fieldscribe_real value, int16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_rounded(fieldscribe_times(value, 100),
+        WOODWARD_MPU2S_COS_PHI_CONTROLLER_SETPOINT_RAW_MIN, WOODWARD_MPU2S_COS_PHI_CONTROLLER_SETPOINT_RAW_MAX);
+    return fieldscribe_keep_s16(fieldscribe_both(whole.status,
+        woodward_mpu2s_cos_phi_controller_setpoint_check((int16_t)whole.number)), (int16_t)whole.number, raw);
+}
+static inline fieldscribe_real woodward_mpu2s_cos_phi_controller_setpoint_decode(int16_t raw)
+{ return fieldscribe_ratio(raw, 100); }
+FIELDSCRIBE_STATUS woodward_mpu2s_cos_phi_controller_dead_band_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 5, 250, raw); }
+static inline fieldscribe_real woodward_mpu2s_cos_phi_controller_dead_band_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS woodward_mpu2s_cos_phi_controller_gain_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 1, 999, raw); }
+static inline fieldscribe_real woodward_mpu2s_cos_phi_controller_gain_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_maximum_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 100, 1200, raw); }
+static inline fieldscribe_real woodward_mpu2s_active_power_controller_maximum_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_minimum_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 500, raw); }
+static inline fieldscribe_real woodward_mpu2s_active_power_controller_minimum_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_dead_band_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 1, 250, raw); }
+static inline fieldscribe_real woodward_mpu2s_active_power_controller_dead_band_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_gain_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 1, 999, raw); }
+static inline fieldscribe_real woodward_mpu2s_active_power_controller_gain_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_reduction_factor_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 10, 99, raw); }
+static inline fieldscribe_real woodward_mpu2s_active_power_controller_reduction_factor_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS woodward_mpu2s_part_load_lead_setpoint_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 50, 1100, raw); }
+static inline fieldscribe_real woodward_mpu2s_part_load_lead_setpoint_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS woodward_mpu2s_part_load_lead_time_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 0, 30000, raw); }
+static inline fieldscribe_real woodward_mpu2s_part_load_lead_time_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_load_ramp_maximum_time_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 0, 49950, raw); }
+static inline fieldscribe_real woodward_mpu2s_load_ramp_maximum_time_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_frequency_difference_max_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 256), 5, 125, raw); }
+static inline fieldscribe_real woodward_mpu2s_synchronisation_frequency_difference_max_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
+FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_frequency_difference_min_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 256), 0, 125, raw); }
+static inline fieldscribe_real woodward_mpu2s_synchronisation_frequency_difference_min_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
+FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_voltage_difference_max_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 40), 4, 600, raw); }
+static inline fieldscribe_real woodward_mpu2s_synchronisation_voltage_difference_max_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 40); }
+FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_voltage_difference_min_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 40), 4, 600, raw); }
+static inline fieldscribe_real woodward_mpu2s_synchronisation_voltage_difference_min_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 40); }
+FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_pulse_time_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 1, 13, raw); }
+static inline fieldscribe_real woodward_mpu2s_synchronisation_pulse_time_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_dead_bus_start_frequency_difference_max_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 256), 13, 1280, raw); }
+static inline fieldscribe_real woodward_mpu2s_dead_bus_start_frequency_difference_max_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
+FIELDSCRIBE_STATUS woodward_mpu2s_dead_bus_start_voltage_difference_max_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 40), 4, 800, raw); }
+static inline fieldscribe_real woodward_mpu2s_dead_bus_start_voltage_difference_max_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 40); }
+FIELDSCRIBE_STATUS woodward_mpu2s_overload_threshold_parallel_operation_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 800, 1500, raw); }
+static inline fieldscribe_real woodward_mpu2s_overload_threshold_parallel_operation_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS woodward_mpu2s_overload_delay_parallel_operation_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 0, 4950, raw); }
+static inline fieldscribe_real woodward_mpu2s_overload_delay_parallel_operation_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_overload_threshold_isolated_operation_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 800, 1500, raw); }
+static inline fieldscribe_real woodward_mpu2s_overload_threshold_isolated_operation_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS woodward_mpu2s_overload_delay_isolated_operation_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 0, 4950, raw); }
+static inline fieldscribe_real woodward_mpu2s_overload_delay_isolated_operation_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_reverse_power_threshold_encode(fieldscribe_real value, int16_t *raw)
+{ return fieldscribe_round_s16(fieldscribe_times(value, 10), -990, 990, raw); }
+static inline fieldscribe_real woodward_mpu2s_reverse_power_threshold_decode(int16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS woodward_mpu2s_reverse_power_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 0, 4995, raw); }
+static inline fieldscribe_real woodward_mpu2s_reverse_power_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_unbalanced_load_threshold_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 1000, raw); }
+static inline fieldscribe_real woodward_mpu2s_unbalanced_load_threshold_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS woodward_mpu2s_unbalanced_load_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 1, 4999, raw); }
+static inline fieldscribe_real woodward_mpu2s_unbalanced_load_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_overcurrent_1_threshold_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 3000, raw); }
+static inline fieldscribe_real woodward_mpu2s_overcurrent_1_threshold_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS woodward_mpu2s_overcurrent_1_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 1, 4999, raw); }
+static inline fieldscribe_real woodward_mpu2s_overcurrent_1_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_overcurrent_2_threshold_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 0, 3000, raw); }
+static inline fieldscribe_real woodward_mpu2s_overcurrent_2_threshold_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS woodward_mpu2s_overcurrent_2_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 1, 4999, raw); }
+static inline fieldscribe_real woodward_mpu2s_overcurrent_2_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_tp_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 0, 99, raw); }
+static inline fieldscribe_real woodward_mpu2s_inverse_time_overcurrent_tp_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_ip_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 1000), 100, 3000, raw); }
+static inline fieldscribe_real woodward_mpu2s_inverse_time_overcurrent_ip_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 1000); }
+FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_istart_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 1000), 1000, 3000, raw); }
+static inline fieldscribe_real woodward_mpu2s_inverse_time_overcurrent_istart_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 1000); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overfrequency_1_threshold_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 256), 10240, 21760, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_overfrequency_1_threshold_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overfrequency_1_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 1, 499, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_overfrequency_1_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overfrequency_2_threshold_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 256), 10240, 21760, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_overfrequency_2_threshold_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overfrequency_2_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 1, 499, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_overfrequency_2_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_underfrequency_1_threshold_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 256), 10240, 21760, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_underfrequency_1_threshold_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_underfrequency_1_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 1, 499, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_underfrequency_1_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_underfrequency_2_threshold_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 256), 10240, 21760, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_underfrequency_2_threshold_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_underfrequency_2_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 1, 499, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_underfrequency_2_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_encode(
+    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_overvoltage_1_threshold_100v_check((uint16_t)whole.number,
+        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_decode(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_encode(
+    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_overvoltage_1_threshold_400v_check((uint16_t)whole.number,
+        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_decode(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 1, 499, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_overvoltage_1_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_encode(
+    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_overvoltage_2_threshold_100v_check((uint16_t)whole.number,
+        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_decode(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_encode(
+    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_overvoltage_2_threshold_400v_check((uint16_t)whole.number,
+        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_decode(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 1, 499, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_overvoltage_2_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_encode(
+    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_undervoltage_1_threshold_100v_check((uint16_t)whole.number,
+        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_decode(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_encode(
+    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_undervoltage_1_threshold_400v_check((uint16_t)whole.number,
+        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_decode(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 1, 499, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_undervoltage_1_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_encode(
+    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_undervoltage_2_threshold_100v_check((uint16_t)whole.number,
+        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_decode(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_encode(
+    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_undervoltage_2_threshold_400v_check((uint16_t)whole.number,
+        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_decode(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 1, 499, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_undervoltage_2_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_overfrequency_threshold_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 256), 10240, 17920, raw); }
+static inline fieldscribe_real woodward_mpu2s_mains_overfrequency_threshold_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_overfrequency_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 1, 499, raw); }
+static inline fieldscribe_real woodward_mpu2s_mains_overfrequency_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_underfrequency_threshold_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 256), 10240, 17920, raw); }
+static inline fieldscribe_real woodward_mpu2s_mains_underfrequency_threshold_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_underfrequency_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 1, 499, raw); }
+static inline fieldscribe_real woodward_mpu2s_mains_underfrequency_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_100v_encode(
+    double value, uint16_t mains_voltage_factor_raw, uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw), value,
+        WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_RAW_MIN,
+        WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_mains_overvoltage_threshold_100v_check((uint16_t)whole.number, mains_voltage_factor_raw)),
+        (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_100v_decode(
+    uint16_t raw, uint16_t mains_voltage_factor_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_encode(
+    double value, uint16_t mains_voltage_factor_raw, uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw), value,
+        WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MIN,
+        WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_mains_overvoltage_threshold_400v_check((uint16_t)whole.number, mains_voltage_factor_raw)),
+        (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_decode(
+    uint16_t raw, uint16_t mains_voltage_factor_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 1, 499, raw); }
+static inline fieldscribe_real woodward_mpu2s_mains_overvoltage_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_encode(
+    double value, uint16_t mains_voltage_factor_raw, uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw), value,
+        WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MIN,
+        WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_mains_undervoltage_threshold_100v_check((uint16_t)whole.number, mains_voltage_factor_raw)),
+        (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_decode(
+    uint16_t raw, uint16_t mains_voltage_factor_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_encode(
+    double value, uint16_t mains_voltage_factor_raw, uint16_t *raw)
+{
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw), value,
+        WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MIN,
+        WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_mains_undervoltage_threshold_400v_check((uint16_t)whole.number, mains_voltage_factor_raw)),
+        (uint16_t)whole.number, raw);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_decode(
+    uint16_t raw, uint16_t mains_voltage_factor_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(mains_voltage_factor_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 1, 499, raw); }
+static inline fieldscribe_real woodward_mpu2s_mains_undervoltage_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_threshold_inductive_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 50, 1000, raw); }
+static inline fieldscribe_real woodward_mpu2s_reactive_power_threshold_inductive_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_delay_inductive_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 0, 49950, raw); }
+static inline fieldscribe_real woodward_mpu2s_reactive_power_delay_inductive_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_threshold_capacitive_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 50, 1000, raw); }
+static inline fieldscribe_real woodward_mpu2s_reactive_power_threshold_capacitive_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_delay_capacitive_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 0, 49950, raw); }
+static inline fieldscribe_real woodward_mpu2s_reactive_power_delay_capacitive_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_earth_fault_threshold_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 50, 1000, raw); }
+static inline fieldscribe_real woodward_mpu2s_earth_fault_threshold_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS woodward_mpu2s_earth_fault_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 1, 4999, raw); }
+static inline fieldscribe_real woodward_mpu2s_earth_fault_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_battery_undervoltage_threshold_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 10), 95, 300, raw); }
+static inline fieldscribe_real woodward_mpu2s_battery_undervoltage_threshold_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
+FIELDSCRIBE_STATUS woodward_mpu2s_battery_undervoltage_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(fieldscribe_times(value, 50), 1, 4950, raw); }
+static inline fieldscribe_real woodward_mpu2s_battery_undervoltage_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_0_percent_encode(
+    double value, uint16_t analog_output_1_source_raw, int16_t *raw)
+{
+    return fieldscribe_store_s16(
+        fieldscribe_ruled_value(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
+        value, -9999, 9999), raw);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_0_percent_decode(
+    int16_t raw, uint16_t analog_output_1_source_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_100_percent_encode(
+    double value, uint16_t analog_output_1_source_raw, int16_t *raw)
+{
+    return fieldscribe_store_s16(
+        fieldscribe_ruled_value(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
+        value, -9999, 9999), raw);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_100_percent_decode(
+    int16_t raw, uint16_t analog_output_1_source_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_0_percent_encode(
+    double value, uint16_t analog_output_2_source_raw, int16_t *raw)
+{
+    return fieldscribe_store_s16(
+        fieldscribe_ruled_value(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_2_source_raw),
+        value, -9999, 9999), raw);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_0_percent_decode(
+    int16_t raw, uint16_t analog_output_2_source_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_2_source_raw),
+        (int64_t)raw, value);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_100_percent_encode(
+    double value, uint16_t analog_output_2_source_raw, int16_t *raw)
+{
+    return fieldscribe_store_s16(
+        fieldscribe_ruled_value(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_2_source_raw),
+        value, -9999, 9999), raw);
+}
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_100_percent_decode(
+    int16_t raw, uint16_t analog_output_2_source_raw, double *value)
+{
+    return fieldscribe_decode_value(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_2_source_raw),
+        (int64_t)raw, value);
+}
 FIELDSCRIBE_STATUS woodward_mpu2s_monitoring_start_frequency_encode(fieldscribe_real value, uint16_t *raw)
-{ return fieldscribe_scale_u16(value, 256, 3840, 17920, raw); }
+{ return fieldscribe_round_u16(fieldscribe_times(value, 256), 3840, 17920, raw); }
 static inline fieldscribe_real woodward_mpu2s_monitoring_start_frequency_decode(uint16_t raw)
 { return fieldscribe_ratio(raw, 256); }
 #endif

@@ -184,98 +184,94 @@ typedef struct woodward_mpu2s_visualisation_values {
 static inline void woodward_mpu2s_visualisation_values_decode(
     size_t part, const uint16_t *words, woodward_mpu2s_visualisation_values *group)
 {
-    switch (part) {
-    case 0U:
+    if (part == 0U) {
         group->telegram_identification_raw = words[0];
         group->generator_frequency_count = woodward_mpu2s_generator_frequency_decode_count(words[1]);
         group->generator_active_power_raw = woodward_mpu2s_generator_active_power_from_words(&words[2]);
-        break;
-    case 1U:
+    }
+    if (part == 1U) {
         group->generator_power_exponent_raw = woodward_mpu2s_generator_power_exponent_extract(words[0]);
         group->generator_voltage_exponent_raw = woodward_mpu2s_generator_voltage_exponent_extract(words[0]);
         group->present_active_power_setpoint_raw = woodward_mpu2s_present_active_power_setpoint_from_words(&words[1]);
         group->active_power_setpoint_factor_raw = words[2];
-        break;
-    case 2U:
+    }
+    if (part == 2U) {
         group->busbar_voltage_l1_l2_raw = words[0];
         group->mains_voltage_l1_l2_raw = words[1];
         group->present_fault_classes_raw = words[2];
-        break;
-    case 3U:
+    }
+    if (part == 3U) {
         group->control_register_2_raw = words[0];
         group->control_register_1_raw = words[2];
-        break;
-    case 4U:
+    }
+    if (part == 4U) {
         group->internal_faults_8_raw = words[0];
         group->internal_faults_6_raw = words[1];
         group->generator_voltage_l2_l3_raw = words[2];
-        break;
-    case 5U:
+    }
+    if (part == 5U) {
         group->generator_voltage_l3_l1_raw = words[0];
         group->generator_voltage_l1_n_raw = words[1];
         group->generator_voltage_l2_n_raw = words[2];
-        break;
-    case 6U:
+    }
+    if (part == 6U) {
         group->generator_voltage_l3_n_raw = words[0];
         group->generator_voltage_l1_l2_raw = words[1];
-        break;
-    case 7U:
+    }
+    if (part == 7U) {
         group->generator_current_l1_raw = words[0];
         group->generator_current_l2_raw = words[1];
         group->generator_current_l3_raw = words[2];
-        break;
-    case 8U:
+    }
+    if (part == 8U) {
         group->generator_cos_phi_count = woodward_mpu2s_generator_cos_phi_decode_count(
             woodward_mpu2s_generator_cos_phi_from_words(&words[1]));
-        break;
-    case 9U:
+    }
+    if (part == 9U) {
         group->load_sharing_participants_raw = words[1];
         group->mains_state_raw = woodward_mpu2s_mains_state_extract(words[2]);
         group->generator_state_raw = woodward_mpu2s_generator_state_extract(words[2]);
-        break;
-    case 10U:
+    }
+    if (part == 10U) {
         group->generator_current_exponent_raw = woodward_mpu2s_generator_current_exponent_extract(words[0]);
         group->busbar_frequency_count = woodward_mpu2s_busbar_frequency_decode_count(words[1]);
         group->busbar_state_raw = woodward_mpu2s_busbar_state_extract(words[2]);
-        break;
-    case 11U:
+    }
+    if (part == 11U) {
         group->mains_voltage_l2_l3_raw = words[0];
         group->mains_voltage_l3_l1_raw = words[1];
         group->mains_voltage_l1_n_raw = words[2];
-        break;
-    case 12U:
+    }
+    if (part == 12U) {
         group->mains_voltage_l2_n_raw = words[0];
         group->mains_voltage_l3_n_raw = words[1];
         group->mains_frequency_count = woodward_mpu2s_mains_frequency_decode_count(words[2]);
-        break;
-    case 14U:
+    }
+    if (part == 14U) {
         group->mains_voltage_exponent_raw = woodward_mpu2s_mains_voltage_exponent_extract(words[0]);
         group->busbar_voltage_exponent_raw = woodward_mpu2s_busbar_voltage_exponent_extract(words[1]);
-        break;
-    case 15U:
+    }
+    if (part == 15U) {
         group->hours_until_maintenance_raw = words[1];
         group->engine_start_counter_raw = words[2];
-        break;
-    case 16U:
+    }
+    if (part == 16U) {
         group->generator_active_energy_raw = woodward_mpu2s_generator_active_energy_from_words(&words[1]);
-        break;
-    case 17U:
+    }
+    if (part == 17U) {
         group->battery_voltage_count = woodward_mpu2s_battery_voltage_decode_count(words[0]);
         group->internal_faults_1_raw = words[1];
         group->internal_faults_2_raw = words[2];
-        break;
-    case 18U:
+    }
+    if (part == 18U) {
         group->internal_faults_3_raw = words[0];
         group->internal_faults_4_raw = words[1];
         group->internal_faults_5_raw = words[2];
-        break;
-    case 19U:
+    }
+    if (part == 19U) {
         group->digital_input_faults_1_to_8_raw = words[0];
         group->digital_input_faults_9_to_16_raw = words[1];
         group->internal_faults_7_raw = words[2];
-        break;
-    default:
-        break; /* there is no such part */
     }
 }
 

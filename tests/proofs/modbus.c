@@ -12,7 +12,7 @@
 #define KNOWN 3U    /* places of a marker: each is looked at alone */
 #define FRAMES 264U /* longer than the longest frame, of 260 bytes */
 #ifndef SHORT
-#define SHORT 32U   /* where build is followed with exact arrays; put_values, which fills in the data, for all lengths */
+#define SHORT 32U   /* where build is followed with exact arrays; put_values for all counts of words */
 #endif
 #define ITEMS 256U  /* as many are followed exactly; more in arrays that may be longer than told */
 #define WORDS 128U  /* more than a byte count can announce: 255 bytes are 127 words */
@@ -119,26 +119,10 @@ void prove_reads(uint8_t function)
     (void)fieldscribe_modbus_reads(function);
 }
 
-void prove_item_bytes(void)
+void prove_has_unit(void)
 {
-    (void)fieldscribe_modbus_item_bytes(&request);
-}
-
-void prove_is_read(void)
-{
-    of_any_kind();
-    (void)fieldscribe_modbus_is_read(&request);
-}
-
-void prove_is_to_all(void)
-{
-    (void)fieldscribe_modbus_is_to_all(&profile, &request);
-}
-
-void prove_has_unit(uint32_t function)
-{
-    if (function < FIELDSCRIBE_MODBUS_FUNCTIONS) { /* known by then */
-        (void)fieldscribe_modbus_has_unit(&profile, &request, function);
+    if (request.function < FIELDSCRIBE_MODBUS_FUNCTIONS) { /* known by then */
+        (void)fieldscribe_modbus_has_unit(&profile, &request);
     }
 }
 
@@ -192,27 +176,6 @@ void prove_coils(uint16_t count, uint16_t byte)
     }
 }
 
-/* There is room for as many bytes as `data_bytes` says. */
-void prove_put_values__data(uint8_t data_bytes)
-{
-    //@ split data_bytes;
-    NOT_BETWEEN(data_bytes, 255U);
-    ask_any();
-    fieldscribe_modbus_put_values(&request, EXACTLY(data_bytes, frame), data_bytes);
-}
-
-/* `data_bytes` is what the count of words makes; coils are proven for any byte above. */
-void prove_put_values__words(uint16_t count)
-{
-    if (count <= WORDS) {
-        //@ split count;
-        NOT_BETWEEN(count, WORDS);
-        ask(count);
-        request.function = 0x10U;
-        fieldscribe_modbus_put_values(&request, frame, 2U * (uint32_t)count);
-    }
-}
-
 /* By kind of function, so that Frama-C knows in each call what the frame consists of. */
 static void build_into(fieldscribe_modbus_framing framing, uint8_t *buffer, size_t size)
 {
@@ -248,32 +211,46 @@ static void put_by_function(fieldscribe_modbus_status (*put)(const fieldscribe_m
     }
 }
 
-/* Without what frames a request; data is proven by put_values, for all lengths. */
-void prove_put_several(size_t size)
+void prove_put_coils(size_t size)
 {
     if (size <= SHORT) {
         //@ split size;
         know();
         ask_any();
-        put_by_function(&fieldscribe_modbus_put_several, size);
+        put_by_function(&fieldscribe_modbus_put_coils, size);
     }
 }
 
-void prove_put_several__no_values(size_t size)
+void prove_put_values(size_t size)
 {
     if (size <= SHORT) {
+        //@ split size;
+        know();
+        ask_any();
+        put_by_function(&fieldscribe_modbus_put_values, size);
+    }
+}
+
+/* Any count of words, in a frame that is long enough for all that a byte count announces. */
+void prove_put_values__words(uint16_t count)
+{
+    size_t used = FRAMES;
+    if (count <= WORDS) {
+        //@ split count;
+        NOT_BETWEEN(count, WORDS);
+        ask(count);
+        request.function = 0x10U;
+        (void)fieldscribe_modbus_put_values(&profile, &request, frame, &used);
+    }
+}
+
+void prove_put_values__no_values(size_t size)
+{
+    if (size <= SHORT) {
+        know();
         request.values = NULL;
-        put_by_function(&fieldscribe_modbus_put_several, size);
-    }
-}
-
-void prove_put_writing(size_t size)
-{
-    if (size <= SHORT) {
-        //@ split size;
-        know();
-        ask_any();
-        put_by_function(&fieldscribe_modbus_put_writing, size);
+        put_by_function(&fieldscribe_modbus_put_coils, size);
+        put_by_function(&fieldscribe_modbus_put_values, size);
     }
 }
 
@@ -358,25 +335,18 @@ void prove_build__values(uint16_t count)
     }
 }
 
-void prove_item(uint32_t at)
-{
-    if (at < 8U * DATA_MOST && (request.function <= 0x02U || at <= DATA_MOST / 2U)) {
-        (void)fieldscribe_modbus_item(&request, long_frame, at);
-    }
-}
-
-void prove_take_items__data(size_t size, size_t room)
+void prove_take_answer__data(size_t size, size_t room)
 {
     if (size >= 2U && size <= FRAMES) {
         //@ split size;
         NOT_BETWEEN(size, FRAMES);
         ask_any();
         into(many_items, room);
-        BY_ITEMS(size - 2U, fieldscribe_modbus_take_items(&request, EXACTLY(size, frame), size, &reply));
+        BY_ITEMS(size - 2U, fieldscribe_modbus_take_answer(&request, EXACTLY(size, frame), size, &reply));
     }
 }
 
-void prove_take_items__values(size_t size, size_t room)
+void prove_take_answer__values(size_t size, size_t room)
 {
     const size_t stored = room < ITEMS ? room : ITEMS;
     if (size >= 2U && size <= FRAMES) {
@@ -384,7 +354,7 @@ void prove_take_items__values(size_t size, size_t room)
         NOT_BETWEEN(stored, ITEMS);
         ask_any();
         into(EXACTLY(stored, items), stored);
-        BY_ITEMS(FRAMES - 2U, fieldscribe_modbus_take_items(&request, frame, size, &reply));
+        BY_ITEMS(FRAMES - 2U, fieldscribe_modbus_take_answer(&request, frame, size, &reply));
     }
 }
 
@@ -407,17 +377,6 @@ void prove_take_echo__request(uint16_t count, size_t size)
         ask(count);
         into(many_items, LARGE / 2U);
         (void)fieldscribe_modbus_take_echo(&request, frame, size, &reply);
-    }
-}
-
-void prove_take_answer(size_t size, size_t room)
-{
-    if (size >= 2U && size <= FRAMES) {
-        //@ split size;
-        NOT_BETWEEN(size, FRAMES);
-        ask_any();
-        into(many_items, room);
-        BY_ITEMS(size - 2U, fieldscribe_modbus_take_answer(&request, EXACTLY(size, frame), size, &reply));
     }
 }
 
@@ -501,13 +460,12 @@ void prove_parse__values(fieldscribe_modbus_framing framing, size_t length, size
 }
 
 /* Nothing is stored where there is nothing, whatever room is told. */
-void prove_room(size_t size, size_t room)
+void prove_take_answer__no_room(size_t size, size_t room)
 {
     if (size >= 2U && size <= FRAMES) {
         ask_any();
         into(NULL, room);
-        (void)fieldscribe_modbus_room(&reply);
-        (void)fieldscribe_modbus_take_items(&request, frame, size, &reply);
+        (void)fieldscribe_modbus_take_answer(&request, frame, size, &reply);
         (void)fieldscribe_modbus_take_echo(&request, frame, size, &reply);
         (void)fieldscribe_modbus_words_in(&request, &reply, &reading);
     }
@@ -607,7 +565,7 @@ static void has(uint8_t *buffer, size_t size, size_t length)
 
 void prove_begun_rtu(size_t size, size_t length)
 {
-    if (length > 0U && length <= SHORT) {
+    if (length <= SHORT) {
         //@ split length;
         has(frame, size, length);
         (void)fieldscribe_modbus_begun_rtu(&receiver, EXACTLY(length, frame), length);
@@ -616,24 +574,10 @@ void prove_begun_rtu(size_t size, size_t length)
 
 void prove_begun_tcp(size_t size, size_t length)
 {
-    if (length > 0U && length <= SHORT) {
+    if (length <= SHORT) {
         //@ split length;
         has(frame, size, length);
         (void)fieldscribe_modbus_begun_tcp(&receiver, EXACTLY(length, frame), length);
-    }
-}
-
-void prove_shortest(void)
-{
-    (void)fieldscribe_modbus_shortest(&receiver);
-}
-
-void prove_begun(size_t size, size_t length)
-{
-    if (length > 0U && length <= SHORT) {
-        //@ split length;
-        has(frame, size, length);
-        (void)fieldscribe_modbus_begun(&receiver, EXACTLY(length, frame), length);
     }
 }
 
@@ -655,14 +599,17 @@ void prove_silent(size_t size, size_t length)
     }
 }
 
+/* A byte for a receiver with any bytes, then another one. */
 void prove_receive(size_t size, size_t length, size_t count)
 {
-    if (size <= STEPS && length <= STEPS && count <= 2U) {
+    if (size <= STEPS && length <= STEPS && count <= 1U) {
         //@ split size;
         //@ split length;
         //@ split count;
         has(EXACTLY(size, frame), size, length);
         (void)fieldscribe_modbus_receive(&receiver, EXACTLY(count, long_frame), count);
+        //@ split receiver.length;
+        (void)fieldscribe_modbus_receive(&receiver, EXACTLY(1U, long_frame), 1U);
     }
 }
 
@@ -696,11 +643,6 @@ static void link(uint8_t *buffer, size_t size)
     request.late = number % 2U != 0U;
 }
 
-void prove_clear(void)
-{
-    fieldscribe_modbus_clear(&reply);
-}
-
 void prove_listen(size_t size)
 {
     if (size >= 5U && size <= SHORT) {
@@ -711,23 +653,14 @@ void prove_listen(size_t size)
     }
 }
 
-void prove_sent(size_t size, size_t room)
+void prove_exchange(size_t size, size_t room)
 {
     if (size <= SHORT) {
         //@ split size;
         link(EXACTLY(size, frame), size);
         into(items, room);
-        (void)fieldscribe_modbus_sent(&line, &request, size, &reply, 3U);
-    }
-}
-
-void prove_received(size_t size)
-{
-    if (size >= 5U && size <= SHORT) {
-        //@ split size;
-        link(EXACTLY(size, frame), size);
         receiver = fieldscribe_modbus_rtu_receiver(&request, line.buffer, size);
-        (void)fieldscribe_modbus_received(&line, &receiver);
+        (void)fieldscribe_modbus_exchange(&line, &request, &reply, 3U, size, &receiver);
     }
 }
 

@@ -43,7 +43,10 @@ OPTIONS = (
 MORE = {
     "cores": ("-warn-special-float", "none", "-eva-precision", "2"),
     "dates": ("-warn-unsigned-overflow",),
-    "modbus": ("-eva-slevel-function", "fieldscribe_modbus_stands:16,fieldscribe_modbus_select:64"),
+    "modbus": (
+        "-eva-slevel-function",
+        "fieldscribe_modbus_stands:16,fieldscribe_modbus_select:64,fieldscribe_modbus_settle:256",
+    ),
     "modbus_identify": ("-eva-slevel-function", "fieldscribe_is_same_text:16"),
 }
 """Values may be infinite and NaN, as IEEE 754 has it; what a function stores is known by what it returns.

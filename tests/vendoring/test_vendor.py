@@ -397,6 +397,22 @@ def test_words_keep_parts_of_the_runtime(words: str, kept: set[str], tmp_path: P
     compiles(tmp_path, "hitachi_l200_modbus.h")
 
 
+def test_twelve_points_with_their_runtime_can_be_reviewed(tmp_path: Path) -> None:
+    points = "A020,A001,A002,A004,F002,F003,D001,D002,D003,D004,D081,B012"
+    assert vendor("c", "hitachi_l200", "--out", tmp_path, "--points", points) == 0
+    assert sum(len(file.read_text("utf-8").splitlines()) for file in tmp_path.iterdir()) <= 1500
+    compiles(tmp_path, "hitachi_l200_modbus.h")
+
+
+@pytest.mark.parametrize(("words", "comes"), [("F002,A020", False), ("F002,A020,fieldscribe_modbus_await_rtu", True)])
+def test_calls_leave_out_the_functions_that_they_do_without(words: str, comes: bool, tmp_path: Path) -> None:
+    assert vendor("c", "hitachi_l200", "--out", tmp_path, "--points", words) == 0
+    text = "".join((tmp_path / f"hitachi_l200{tail}.h").read_text("utf-8") for tail in ("", "_modbus"))
+    for name in ("base_frequency_check(", "acceleration_time_to_words(", "standard_a_blocks[", "basic_f_blocks["):
+        assert (name in text) == comes, name
+    compiles(tmp_path, "hitachi_l200_modbus.h")
+
+
 @pytest.mark.parametrize(
     ("device", "words", "parts"),
     [

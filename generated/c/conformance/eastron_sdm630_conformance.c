@@ -1197,15 +1197,15 @@ static void point_register_order(fieldscribe_vector *v)
 }
 
 static const fieldscribe_status_name statuses[] = {
-    {EASTRON_SDM630_OK, "ok"},
-    {EASTRON_SDM630_OUT_OF_RANGE, "out_of_range"},
-    {EASTRON_SDM630_NOT_A_NUMBER, "not_a_number"},
-    {EASTRON_SDM630_UNKNOWN_VALUE, "unknown_value"},
-    {EASTRON_SDM630_ZERO_FACTOR, "zero_factor"},
-    {EASTRON_SDM630_NO_CASE, "no_case"},
-    {EASTRON_SDM630_OVERFLOW, "overflow"},
-    {EASTRON_SDM630_SPECIAL, "special"},
-    {EASTRON_SDM630_MALFORMED, "malformed"},
+    {FIELDSCRIBE_OK, "ok"},
+    {FIELDSCRIBE_OUT_OF_RANGE, "out_of_range"},
+    {FIELDSCRIBE_NOT_A_NUMBER, "not_a_number"},
+    {FIELDSCRIBE_UNKNOWN_VALUE, "unknown_value"},
+    {FIELDSCRIBE_ZERO_FACTOR, "zero_factor"},
+    {FIELDSCRIBE_NO_CASE, "no_case"},
+    {FIELDSCRIBE_OVERFLOW, "overflow"},
+    {FIELDSCRIBE_SPECIAL, "special"},
+    {FIELDSCRIBE_MALFORMED, "malformed"},
     {-1, NULL}
 };
 

@@ -4485,15 +4485,15 @@ static void point_site_energy_total(fieldscribe_vector *v)
 }
 
 static const fieldscribe_status_name statuses[] = {
-    {FRONIUS_DATAMANAGER_OK, "ok"},
-    {FRONIUS_DATAMANAGER_OUT_OF_RANGE, "out_of_range"},
-    {FRONIUS_DATAMANAGER_NOT_A_NUMBER, "not_a_number"},
-    {FRONIUS_DATAMANAGER_UNKNOWN_VALUE, "unknown_value"},
-    {FRONIUS_DATAMANAGER_ZERO_FACTOR, "zero_factor"},
-    {FRONIUS_DATAMANAGER_NO_CASE, "no_case"},
-    {FRONIUS_DATAMANAGER_OVERFLOW, "overflow"},
-    {FRONIUS_DATAMANAGER_SPECIAL, "special"},
-    {FRONIUS_DATAMANAGER_MALFORMED, "malformed"},
+    {FIELDSCRIBE_OK, "ok"},
+    {FIELDSCRIBE_OUT_OF_RANGE, "out_of_range"},
+    {FIELDSCRIBE_NOT_A_NUMBER, "not_a_number"},
+    {FIELDSCRIBE_UNKNOWN_VALUE, "unknown_value"},
+    {FIELDSCRIBE_ZERO_FACTOR, "zero_factor"},
+    {FIELDSCRIBE_NO_CASE, "no_case"},
+    {FIELDSCRIBE_OVERFLOW, "overflow"},
+    {FIELDSCRIBE_SPECIAL, "special"},
+    {FIELDSCRIBE_MALFORMED, "malformed"},
     {-1, NULL}
 };
 

@@ -4272,15 +4272,15 @@ static void point_stabilization_constant_set_2(fieldscribe_vector *v)
 }
 
 static const fieldscribe_status_name statuses[] = {
-    {HITACHI_L200_OK, "ok"},
-    {HITACHI_L200_OUT_OF_RANGE, "out_of_range"},
-    {HITACHI_L200_NOT_A_NUMBER, "not_a_number"},
-    {HITACHI_L200_UNKNOWN_VALUE, "unknown_value"},
-    {HITACHI_L200_ZERO_FACTOR, "zero_factor"},
-    {HITACHI_L200_NO_CASE, "no_case"},
-    {HITACHI_L200_OVERFLOW, "overflow"},
-    {HITACHI_L200_SPECIAL, "special"},
-    {HITACHI_L200_MALFORMED, "malformed"},
+    {FIELDSCRIBE_OK, "ok"},
+    {FIELDSCRIBE_OUT_OF_RANGE, "out_of_range"},
+    {FIELDSCRIBE_NOT_A_NUMBER, "not_a_number"},
+    {FIELDSCRIBE_UNKNOWN_VALUE, "unknown_value"},
+    {FIELDSCRIBE_ZERO_FACTOR, "zero_factor"},
+    {FIELDSCRIBE_NO_CASE, "no_case"},
+    {FIELDSCRIBE_OVERFLOW, "overflow"},
+    {FIELDSCRIBE_SPECIAL, "special"},
+    {FIELDSCRIBE_MALFORMED, "malformed"},
     {-1, NULL}
 };
 

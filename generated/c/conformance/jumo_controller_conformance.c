@@ -489,15 +489,15 @@ static void point_timer_commands(fieldscribe_vector *v)
 }
 
 static const fieldscribe_status_name statuses[] = {
-    {JUMO_CONTROLLER_OK, "ok"},
-    {JUMO_CONTROLLER_OUT_OF_RANGE, "out_of_range"},
-    {JUMO_CONTROLLER_NOT_A_NUMBER, "not_a_number"},
-    {JUMO_CONTROLLER_UNKNOWN_VALUE, "unknown_value"},
-    {JUMO_CONTROLLER_ZERO_FACTOR, "zero_factor"},
-    {JUMO_CONTROLLER_NO_CASE, "no_case"},
-    {JUMO_CONTROLLER_OVERFLOW, "overflow"},
-    {JUMO_CONTROLLER_SPECIAL, "special"},
-    {JUMO_CONTROLLER_MALFORMED, "malformed"},
+    {FIELDSCRIBE_OK, "ok"},
+    {FIELDSCRIBE_OUT_OF_RANGE, "out_of_range"},
+    {FIELDSCRIBE_NOT_A_NUMBER, "not_a_number"},
+    {FIELDSCRIBE_UNKNOWN_VALUE, "unknown_value"},
+    {FIELDSCRIBE_ZERO_FACTOR, "zero_factor"},
+    {FIELDSCRIBE_NO_CASE, "no_case"},
+    {FIELDSCRIBE_OVERFLOW, "overflow"},
+    {FIELDSCRIBE_SPECIAL, "special"},
+    {FIELDSCRIBE_MALFORMED, "malformed"},
     {-1, NULL}
 };
 

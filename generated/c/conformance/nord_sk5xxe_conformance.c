@@ -268,15 +268,15 @@ static void point_actual_value_5(fieldscribe_vector *v)
 }
 
 static const fieldscribe_status_name statuses[] = {
-    {NORD_SK5XXE_OK, "ok"},
-    {NORD_SK5XXE_OUT_OF_RANGE, "out_of_range"},
-    {NORD_SK5XXE_NOT_A_NUMBER, "not_a_number"},
-    {NORD_SK5XXE_UNKNOWN_VALUE, "unknown_value"},
-    {NORD_SK5XXE_ZERO_FACTOR, "zero_factor"},
-    {NORD_SK5XXE_NO_CASE, "no_case"},
-    {NORD_SK5XXE_OVERFLOW, "overflow"},
-    {NORD_SK5XXE_SPECIAL, "special"},
-    {NORD_SK5XXE_MALFORMED, "malformed"},
+    {FIELDSCRIBE_OK, "ok"},
+    {FIELDSCRIBE_OUT_OF_RANGE, "out_of_range"},
+    {FIELDSCRIBE_NOT_A_NUMBER, "not_a_number"},
+    {FIELDSCRIBE_UNKNOWN_VALUE, "unknown_value"},
+    {FIELDSCRIBE_ZERO_FACTOR, "zero_factor"},
+    {FIELDSCRIBE_NO_CASE, "no_case"},
+    {FIELDSCRIBE_OVERFLOW, "overflow"},
+    {FIELDSCRIBE_SPECIAL, "special"},
+    {FIELDSCRIBE_MALFORMED, "malformed"},
     {-1, NULL}
 };
 

@@ -1115,15 +1115,15 @@ static void point_second_status_word(fieldscribe_vector *v)
 }
 
 static const fieldscribe_status_name statuses[] = {
-    {SIEMENS_MM4_OK, "ok"},
-    {SIEMENS_MM4_OUT_OF_RANGE, "out_of_range"},
-    {SIEMENS_MM4_NOT_A_NUMBER, "not_a_number"},
-    {SIEMENS_MM4_UNKNOWN_VALUE, "unknown_value"},
-    {SIEMENS_MM4_ZERO_FACTOR, "zero_factor"},
-    {SIEMENS_MM4_NO_CASE, "no_case"},
-    {SIEMENS_MM4_OVERFLOW, "overflow"},
-    {SIEMENS_MM4_SPECIAL, "special"},
-    {SIEMENS_MM4_MALFORMED, "malformed"},
+    {FIELDSCRIBE_OK, "ok"},
+    {FIELDSCRIBE_OUT_OF_RANGE, "out_of_range"},
+    {FIELDSCRIBE_NOT_A_NUMBER, "not_a_number"},
+    {FIELDSCRIBE_UNKNOWN_VALUE, "unknown_value"},
+    {FIELDSCRIBE_ZERO_FACTOR, "zero_factor"},
+    {FIELDSCRIBE_NO_CASE, "no_case"},
+    {FIELDSCRIBE_OVERFLOW, "overflow"},
+    {FIELDSCRIBE_SPECIAL, "special"},
+    {FIELDSCRIBE_MALFORMED, "malformed"},
     {-1, NULL}
 };
 

@@ -7284,15 +7284,15 @@ static void point_monitoring_start_frequency(fieldscribe_vector *v)
 }
 
 static const fieldscribe_status_name statuses[] = {
-    {WOODWARD_MPU2S_OK, "ok"},
-    {WOODWARD_MPU2S_OUT_OF_RANGE, "out_of_range"},
-    {WOODWARD_MPU2S_NOT_A_NUMBER, "not_a_number"},
-    {WOODWARD_MPU2S_UNKNOWN_VALUE, "unknown_value"},
-    {WOODWARD_MPU2S_ZERO_FACTOR, "zero_factor"},
-    {WOODWARD_MPU2S_NO_CASE, "no_case"},
-    {WOODWARD_MPU2S_OVERFLOW, "overflow"},
-    {WOODWARD_MPU2S_SPECIAL, "special"},
-    {WOODWARD_MPU2S_MALFORMED, "malformed"},
+    {FIELDSCRIBE_OK, "ok"},
+    {FIELDSCRIBE_OUT_OF_RANGE, "out_of_range"},
+    {FIELDSCRIBE_NOT_A_NUMBER, "not_a_number"},
+    {FIELDSCRIBE_UNKNOWN_VALUE, "unknown_value"},
+    {FIELDSCRIBE_ZERO_FACTOR, "zero_factor"},
+    {FIELDSCRIBE_NO_CASE, "no_case"},
+    {FIELDSCRIBE_OVERFLOW, "overflow"},
+    {FIELDSCRIBE_SPECIAL, "special"},
+    {FIELDSCRIBE_MALFORMED, "malformed"},
     {-1, NULL}
 };
 

@@ -10,7 +10,7 @@ from fieldscribe.conversation.lookup import find, near
 from fieldscribe.facts.digest import with_digest
 from fieldscribe.families import family
 from fieldscribe.grouping import grouped
-from fieldscribe.model import Block, Command, Device, Enum, Interval, Point, SteppedCommand
+from fieldscribe.model import Block, Command, Device, Enum, Erratum, Interval, Point, SteppedCommand
 from fieldscribe.text import shortened
 from fieldscribe.user_errors import UnclearError, did_you_mean
 
@@ -172,10 +172,16 @@ def _reduced(
         errata=tuple(
             erratum
             for erratum in device.errata
-            if (names.intersection(erratum.points) or not erratum.points) and str(erratum.where) not in command_places
+            if names.intersection(erratum.points)
+            or not (erratum.points or str(erratum.where) in command_places or _is_about_others(erratum))
         ),
     )
     return with_digest(reduced, for_code(reduced))[0]
+
+
+def _is_about_others(erratum: Erratum) -> bool:
+    """Return True if the erratum only leaves open which further points the device has."""
+    return {fact for fact, _ in erratum.leaves_open} == {"points"}
 
 
 def _enums_of(device: Device, points: Iterable[Point]) -> tuple[Enum, ...]:

@@ -25,7 +25,7 @@
 #include <stdint.h>
 
 /* Increased when this file no longer fits headers that were generated earlier. */
-#define FIELDSCRIBE_INTERFACE 1
+#define FIELDSCRIBE_INTERFACE 2
 
 #if !defined(FIELDSCRIBE_NO_FLOAT)
 #include <float.h>
@@ -48,7 +48,9 @@
 #if defined(__FP_FAST_FMA) || defined(__FP_FAST_FMAF) || defined(__FMA__) || defined(__FMA4__) || \
     defined(__ARM_FEATURE_FMA) || defined(_MSC_VER) || \
     (defined(__clang__) && !defined(__i386__) && !defined(__x86_64__) && !defined(__arm__))
-#define FIELDSCRIBE_MAY_FUSE
+#define FIELDSCRIBE_PRODUCT volatile /* rounds a product before the next step */
+#else
+#define FIELDSCRIBE_PRODUCT const
 #endif
 #if defined(__clang__) && (defined(__i386__) || defined(__x86_64__))
 #define FIELDSCRIBE_KEEP_PRECISE /* turn off -freciprocal-math and others, for which clang defines no macro */
@@ -143,7 +145,7 @@ FIELDSCRIBE_STATUS fieldscribe_check(int32_t number, int32_t low, int32_t high)
 
 FIELDSCRIBE_STATUS fieldscribe_check_wide(int64_t number, int64_t low, int64_t high)
 {
-    return fieldscribe_within_wide(number, low, high) ? FIELDSCRIBE_OK : FIELDSCRIBE_OUT_OF_RANGE;
+    return ((number < low) || (number > high)) ? FIELDSCRIBE_OUT_OF_RANGE : FIELDSCRIBE_OK;
 }
 
 FIELDSCRIBE_STATUS fieldscribe_check_u64(uint64_t number, uint64_t low, uint64_t high)
@@ -1039,17 +1041,29 @@ static inline fieldscribe_whole fieldscribe_limit_ratio(int64_t number, int64_t 
                           : fieldscribe_whole_of(fieldscribe_divide(number, divisor));
 }
 
+/* The larger of two numbers. */
+static inline int64_t fieldscribe_larger(int64_t first, int64_t second)
+{
+    return (first > second) ? first : second;
+}
+
+/* The smaller of two numbers. */
+static inline int64_t fieldscribe_smaller(int64_t first, int64_t second)
+{
+    return (first < second) ? first : second;
+}
+
 /* The limit, but at least `least`. */
 static inline fieldscribe_whole fieldscribe_no_less(fieldscribe_whole limit, int64_t least)
 {
-    limit.number = (limit.number < least) ? least : limit.number;
+    limit.number = fieldscribe_larger(limit.number, least);
     return limit;
 }
 
 /* The limit, but at most `most`. */
 static inline fieldscribe_whole fieldscribe_no_more(fieldscribe_whole limit, int64_t most)
 {
-    limit.number = (limit.number > most) ? most : limit.number;
+    limit.number = fieldscribe_smaller(limit.number, most);
     return limit;
 }
 
@@ -1682,12 +1696,8 @@ typedef double fieldscribe_real;
 /* value * factor, rounded before the next step: compilers must not fuse the two. */
 static inline fieldscribe_real fieldscribe_times(fieldscribe_real value, fieldscribe_real factor)
 {
-#if defined(FIELDSCRIBE_MAY_FUSE)
-    volatile fieldscribe_real product = value * factor;
+    FIELDSCRIBE_PRODUCT fieldscribe_real product = value * factor;
     return product;
-#else
-    return value * factor;
-#endif
 }
 
 /* The quotient of two integers that fieldscribe_real holds exactly. */
@@ -1696,10 +1706,10 @@ static inline fieldscribe_real fieldscribe_ratio(int32_t number, int32_t divisor
     return (fieldscribe_real)number / (fieldscribe_real)divisor;
 }
 
-/* The status of a value outside the limits. */
-FIELDSCRIBE_STATUS fieldscribe_real_outside(fieldscribe_real value)
+/* The status of a value outside the limits, which may be NaN. */
+FIELDSCRIBE_STATUS fieldscribe_outside(bool is_number)
 {
-    return ((value < 0) || (value >= 0)) ? FIELDSCRIBE_OUT_OF_RANGE : FIELDSCRIBE_NOT_A_NUMBER;
+    return is_number ? FIELDSCRIBE_OUT_OF_RANGE : FIELDSCRIBE_NOT_A_NUMBER;
 }
 
 FIELDSCRIBE_STATUS fieldscribe_keep_real(fieldscribe_status status, fieldscribe_real number, fieldscribe_real *to)
@@ -1710,24 +1720,17 @@ FIELDSCRIBE_STATUS fieldscribe_keep_real(fieldscribe_status status, fieldscribe_
     return status;
 }
 
-/* The nearest integer, halves away from zero, if it is in low..high (limits of a magnitude below 2^31 - 1). */
+/* The nearest integer, halves away from zero, of a number that rounds to low..high, or nearly (limits below 2^31 - 1). */
 FIELDSCRIBE_STATUS fieldscribe_round(fieldscribe_real number, int32_t low, int32_t high, int32_t *whole)
 {
-    int32_t nearest;
     fieldscribe_real rest;
     if (!((number > (fieldscribe_real)(low - 1)) && (number < (fieldscribe_real)(high + 1)))) {
-        return fieldscribe_real_outside(number);
+        return fieldscribe_outside((number < 0) || (number >= 0));
     }
-    nearest = (int32_t)number;
-    rest = number - (fieldscribe_real)nearest;
-    if (rest >= (fieldscribe_real)0.5) {
-        ++nearest;
-    } else if (rest <= (fieldscribe_real)-0.5) {
-        --nearest;
-    } else {
-        /* already the nearest */
-    }
-    return fieldscribe_encode_s32(nearest, low, high, whole);
+    *whole = (int32_t)number;
+    rest = number - (fieldscribe_real)*whole;
+    *whole += ((rest >= (fieldscribe_real)0.5) ? 1 : 0) - ((rest <= (fieldscribe_real)-0.5) ? 1 : 0);
+    return FIELDSCRIBE_OK;
 }
 
 /* The same, for a number that is checked before it is stored. */
@@ -1735,7 +1738,7 @@ static inline fieldscribe_whole fieldscribe_rounded(fieldscribe_real number, int
 {
     int32_t nearest = 0;
     const fieldscribe_status status = fieldscribe_round(number, low, high, &nearest);
-    return (status == FIELDSCRIBE_OK) ? fieldscribe_whole_of(nearest) : fieldscribe_no_whole(status);
+    return (status == FIELDSCRIBE_OK) ? fieldscribe_whole_in(nearest, low, high) : fieldscribe_no_whole(status);
 }
 
 FIELDSCRIBE_STATUS fieldscribe_round_u8(fieldscribe_real number, int32_t low, int32_t high, uint8_t *raw)
@@ -1745,23 +1748,11 @@ FIELDSCRIBE_STATUS fieldscribe_round_u8(fieldscribe_real number, int32_t low, in
     return (status == FIELDSCRIBE_OK) ? fieldscribe_encode_u8(whole, low, high, raw) : status;
 }
 
-FIELDSCRIBE_STATUS fieldscribe_scale_u8(
-    fieldscribe_real value, int32_t factor, int32_t low, int32_t high, uint8_t *raw)
-{
-    return fieldscribe_round_u8(fieldscribe_times(value, (fieldscribe_real)factor), low, high, raw);
-}
-
 FIELDSCRIBE_STATUS fieldscribe_round_s8(fieldscribe_real number, int32_t low, int32_t high, int8_t *raw)
 {
     int32_t whole = 0;
     const fieldscribe_status status = fieldscribe_round(number, low, high, &whole);
     return (status == FIELDSCRIBE_OK) ? fieldscribe_encode_s8(whole, low, high, raw) : status;
-}
-
-FIELDSCRIBE_STATUS fieldscribe_scale_s8(
-    fieldscribe_real value, int32_t factor, int32_t low, int32_t high, int8_t *raw)
-{
-    return fieldscribe_round_s8(fieldscribe_times(value, (fieldscribe_real)factor), low, high, raw);
 }
 
 FIELDSCRIBE_STATUS fieldscribe_round_u16(fieldscribe_real number, int32_t low, int32_t high, uint16_t *raw)
@@ -1771,23 +1762,11 @@ FIELDSCRIBE_STATUS fieldscribe_round_u16(fieldscribe_real number, int32_t low, i
     return (status == FIELDSCRIBE_OK) ? fieldscribe_encode_u16(whole, low, high, raw) : status;
 }
 
-FIELDSCRIBE_STATUS fieldscribe_scale_u16(
-    fieldscribe_real value, int32_t factor, int32_t low, int32_t high, uint16_t *raw)
-{
-    return fieldscribe_round_u16(fieldscribe_times(value, (fieldscribe_real)factor), low, high, raw);
-}
-
 FIELDSCRIBE_STATUS fieldscribe_round_s16(fieldscribe_real number, int32_t low, int32_t high, int16_t *raw)
 {
     int32_t whole = 0;
     const fieldscribe_status status = fieldscribe_round(number, low, high, &whole);
     return (status == FIELDSCRIBE_OK) ? fieldscribe_encode_s16(whole, low, high, raw) : status;
-}
-
-FIELDSCRIBE_STATUS fieldscribe_scale_s16(
-    fieldscribe_real value, int32_t factor, int32_t low, int32_t high, int16_t *raw)
-{
-    return fieldscribe_round_s16(fieldscribe_times(value, (fieldscribe_real)factor), low, high, raw);
 }
 
 /* Copies bytes: a cast would convert the number, and aliasing is undefined. */
@@ -1824,7 +1803,7 @@ static inline fieldscribe_whole fieldscribe_bits_of_f32(fieldscribe_real number)
     const bool fits = (number > -over) && (number < over);
 #endif
     if (!fits) {
-        return fieldscribe_no_whole(fieldscribe_real_outside(number));
+        return fieldscribe_no_whole(fieldscribe_outside((number < 0) || (number >= 0)));
     }
     narrow = (float)number;
     fieldscribe_copy(&pattern, &narrow, sizeof pattern);
@@ -1835,24 +1814,14 @@ static inline fieldscribe_whole fieldscribe_bits_of_f32(fieldscribe_real number)
 
 static inline double fieldscribe_times_wide(double value, double factor)
 {
-#if defined(FIELDSCRIBE_MAY_FUSE)
-    volatile double product = value * factor;
+    FIELDSCRIBE_PRODUCT double product = value * factor;
     return product;
-#else
-    return value * factor;
-#endif
 }
 
 /* The quotient of two integers that a double holds exactly. */
 static inline double fieldscribe_ratio_wide(int64_t number, int64_t divisor)
 {
     return (double)number / (double)divisor;
-}
-
-/* The status of a value outside the limits. */
-FIELDSCRIBE_STATUS fieldscribe_double_outside(double value)
-{
-    return ((value < 0) || (value >= 0)) ? FIELDSCRIBE_OUT_OF_RANGE : FIELDSCRIBE_NOT_A_NUMBER;
 }
 
 FIELDSCRIBE_STATUS fieldscribe_keep_double(fieldscribe_status status, double number, double *to)
@@ -1863,24 +1832,40 @@ FIELDSCRIBE_STATUS fieldscribe_keep_double(fieldscribe_status status, double num
     return status;
 }
 
-/* The nearest integer, halves away from zero, if it is in low..high. */
-static inline fieldscribe_whole fieldscribe_rounded_wide(double number, int64_t low, int64_t high)
+/* The nearest integer, halves away from zero. */
+FIELDSCRIBE_STATUS fieldscribe_round_wide(double number, int64_t *whole)
 {
-    int64_t nearest;
     double rest;
     if (!((number >= -9223372036854775808.0) && (number < 9223372036854775808.0))) {
-        return fieldscribe_no_whole(fieldscribe_double_outside(number));
+        return fieldscribe_outside((number < 0) || (number >= 0));
     }
-    nearest = (int64_t)number;
-    rest = number - (double)nearest; /* 0 from 2^53 on */
-    if ((rest >= 0.5) && (nearest < INT64_MAX)) {
-        ++nearest;
-    } else if ((rest <= -0.5) && (nearest > INT64_MIN)) {
-        --nearest;
-    } else {
-        /* already the nearest */
-    }
-    return fieldscribe_whole_in(nearest, low, high);
+    *whole = (int64_t)number;
+    rest = number - (double)*whole; /* 0 from 2^53 on */
+    *whole += ((rest >= 0.5) && (*whole < INT64_MAX)) ? 1 : 0;
+    *whole -= ((rest <= -0.5) && (*whole > INT64_MIN)) ? 1 : 0;
+    return FIELDSCRIBE_OK;
+}
+
+/* The same, if it is in low..high. */
+static inline fieldscribe_whole fieldscribe_rounded_wide(double number, int64_t low, int64_t high)
+{
+    int64_t nearest = 0;
+    const fieldscribe_status status = fieldscribe_round_wide(number, &nearest);
+    return (status == FIELDSCRIBE_OK) ? fieldscribe_whole_in(nearest, low, high) : fieldscribe_no_whole(status);
+}
+
+FIELDSCRIBE_STATUS fieldscribe_round_u32(double number, int64_t low, int64_t high, uint32_t *raw)
+{
+    int64_t whole = 0;
+    const fieldscribe_status status = fieldscribe_round_wide(number, &whole);
+    return (status == FIELDSCRIBE_OK) ? fieldscribe_encode_u32(whole, low, high, raw) : status;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_round_s32(double number, int64_t low, int64_t high, int32_t *raw)
+{
+    int64_t whole = 0;
+    const fieldscribe_status status = fieldscribe_round_wide(number, &whole);
+    return (status == FIELDSCRIBE_OK) ? fieldscribe_encode_s32(whole, low, high, raw) : status;
 }
 
 /* The number with that IEEE 754 bit pattern. */
@@ -1896,7 +1881,7 @@ static inline fieldscribe_whole fieldscribe_bits_of_f64(double number)
 {
     uint64_t pattern = 0U;
     if (!((number >= -1.7976931348623157e+308) && (number <= 1.7976931348623157e+308))) {
-        return fieldscribe_no_whole(fieldscribe_double_outside(number));
+        return fieldscribe_no_whole(fieldscribe_outside((number < 0) || (number >= 0)));
     }
     fieldscribe_copy(&pattern, &number, sizeof pattern);
     return fieldscribe_whole_of(fieldscribe_signed64(pattern));

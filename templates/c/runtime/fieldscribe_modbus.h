@@ -75,10 +75,7 @@ typedef struct fieldscribe_modbus_reply {
     uint8_t exception;
 } fieldscribe_modbus_reply;
 
-/*
- * A request, as made by fieldscribe_modbus_read, _write and _send. `number` is the field after the address: the count,
- * or the value of 05h, 06h and 08h. For 08h, `address` is the sub-function (0). `transaction` is used only over TCP.
- */
+/* A request, as made by fieldscribe_modbus_read, _write and _send. For 08h, `address` is the sub-function (0). */
 typedef struct fieldscribe_modbus_request {
     uint8_t unit;
     uint8_t function;
@@ -89,8 +86,8 @@ typedef struct fieldscribe_modbus_request {
     uint16_t transaction; /* TCP only: the answer repeats it */
 #endif
 #if defined(FIELDSCRIBE_MODBUS_WRITES)
-    uint16_t number; /* the field after the address: the count, or the value of 05h, 06h and 08h */
-    const uint16_t *values;
+    uint16_t number;        /* the field after the address: the count, or the value of 05h, 06h and 08h */
+    const uint16_t *values; /* those of 0Fh and 10h */
     const struct fieldscribe_modbus_writer *writer; /* NULL for a read: a program that only reads links no writer */
 #endif
 } fieldscribe_modbus_request;
@@ -149,7 +146,6 @@ typedef struct fieldscribe_modbus_receiver {
     uint8_t function;
     bool done;
 #if defined(FIELDSCRIBE_MODBUS_OVER_TCP)
-    uint8_t shortest; /* the length of the shortest answer */
     uint16_t transaction;
     size_t (*begun)(const struct fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t length);
 #endif
@@ -182,10 +178,10 @@ size_t fieldscribe_modbus_receive(fieldscribe_modbus_receiver *receiver, const u
 void fieldscribe_modbus_silent(fieldscribe_modbus_receiver *receiver);
 
 /* Builds the frame of a request in `buffer`; `length` is the number of bytes used, 0 after an error. */
-
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_build_rtu(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length);
 
+/* Builds the frame for TCP. */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_build_tcp(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length);
 
@@ -289,15 +285,14 @@ typedef struct fieldscribe_modbus_line {
  * Sends a request and waits for its answer: build, send, receive and parse in one call. SHORT_FRAME means that nothing,
  * or only the start of an answer, arrived; NOISE that other bytes arrived (an answer with a wrong checksum, from
  * another unit or at another baud rate), or ASK_MOST bytes without an answer. BUFFER_TOO_SMALL: nothing was sent,
- * because `buffer` or the reply is too small for the answer. A broadcast returns OK when it is sent. Over TCP, give
- * each request a new `transaction`, so that late answers are recognized. RTU has no such number: after SHORT_FRAME or
- * NOISE, set `late` in the next request to that unit, even if it is the same request. It is sent after `answer_ms` of
- * silence, or after ASK_MOST bytes. fieldscribe_modbus_read_words and similar functions do this themselves.
+ * because `buffer` or the reply is too small for the answer. A broadcast returns OK when it is sent. After SHORT_FRAME
+ * or NOISE, set `late` in the next request to that unit, even if it is the same request: it is sent after `answer_ms`
+ * of silence, or after ASK_MOST bytes. fieldscribe_modbus_read_words and similar functions do this themselves.
  */
-
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_ask_rtu(const fieldscribe_modbus_line *line,
     const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply);
 
+/* The same over TCP: instead of `late`, give each request a new `transaction`, so that late answers are recognized. */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_ask_tcp(const fieldscribe_modbus_line *line,
     const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply);
 
@@ -409,12 +404,29 @@ FIELDSCRIBE_MODBUS_CALL fieldscribe_modbus_converted(fieldscribe_status status)
 #define FIELDSCRIBE_MODBUS_READ_WORDS(function, address, count, to, number) \
     static const fieldscribe_modbus_reading what = {function, address, count}; \
     uint16_t words[count] = {0}; \
-    const fieldscribe_modbus_status status = \
-        fieldscribe_modbus_read_words(&device->unit, &what, words, count); \
+    const fieldscribe_modbus_status status = fieldscribe_modbus_read_words(&device->unit, &what, words, count); \
     if (status == FIELDSCRIBE_MODBUS_OK) { \
         *(to) = (number); \
     } \
     return status;
+
+/* `high` is the index of the high one of two words. */
+#define FIELDSCRIBE_MODBUS_READ_LONG(function, address, high, to, number) \
+    static const fieldscribe_modbus_reading what = {function, address, 2U}; \
+    uint16_t words[2] = {0U, 0U}; \
+    const fieldscribe_modbus_status status = fieldscribe_modbus_read_words(&device->unit, &what, words, 2U); \
+    const uint32_t raw = fieldscribe_join32(words[high], words[1U - (high)]); \
+    if (status == FIELDSCRIBE_MODBUS_OK) { \
+        *(to) = (number); \
+    } \
+    return status;
+
+#define FIELDSCRIBE_MODBUS_DECODE_LONG(function, address, high, decoded) \
+    static const fieldscribe_modbus_reading what = {function, address, 2U}; \
+    uint16_t words[2] = {0U, 0U}; \
+    const fieldscribe_modbus_status status = fieldscribe_modbus_read_words(&device->unit, &what, words, 2U); \
+    const uint32_t raw = fieldscribe_join32(words[high], words[1U - (high)]); \
+    return (status == FIELDSCRIBE_MODBUS_OK) ? fieldscribe_modbus_converted(decoded) : status;
 
 #define FIELDSCRIBE_MODBUS_DECODE_WORDS(function, address, count, decoded) \
     static const fieldscribe_modbus_reading what = {function, address, count}; \
@@ -455,6 +467,14 @@ FIELDSCRIBE_MODBUS_CALL fieldscribe_modbus_converted(fieldscribe_status status)
     split; \
     return (status == FIELDSCRIBE_MODBUS_OK) \
         ? fieldscribe_modbus_write_words(&device->unit, &what, words, count) : status;
+
+#define FIELDSCRIBE_MODBUS_WRITE_LONG(function, address, high, type, encoded) \
+    static const fieldscribe_modbus_writing what = {function, address, 2U}; \
+    type raw = (type)0; \
+    uint16_t words[2]; \
+    const fieldscribe_modbus_status status = fieldscribe_modbus_converted(encoded); \
+    fieldscribe_split32((uint32_t)raw, &words[high], &words[1U - (high)]); \
+    return (status == FIELDSCRIBE_MODBUS_OK) ? fieldscribe_modbus_write_words(&device->unit, &what, words, 2U) : status;
 
 #define FIELDSCRIBE_MODBUS_UPDATE_WORD(from, from_address, function, address, type, encoded, bits) \
     type raw = (type)0; \
@@ -727,63 +747,34 @@ static bool fieldscribe_modbus_reads(uint8_t function)
 #endif
 }
 
-/* The number of bytes of the items that a request reads. */
-static uint32_t fieldscribe_modbus_item_bytes(const fieldscribe_modbus_request *request)
+/* The length of the normal answer to a request, from the function on. */
+static uint32_t fieldscribe_modbus_answer(const fieldscribe_modbus_request *request)
 {
 #if defined(FIELDSCRIBE_MODBUS_COILS)
     if (request->function <= 0x02U) {
-        return ((uint32_t)request->count + 7U) / 8U;
+        return 2U + (((uint32_t)request->count + 7U) / 8U);
     }
 #endif
-    return (uint32_t)request->count * 2U;
+    return fieldscribe_modbus_reads(request->function) ? (2U + ((uint32_t)request->count * 2U)) : 5U;
 }
 
 /* The length, from the function on, of an answer that begins with these two bytes; 0 if it answers another request. */
 static uint32_t fieldscribe_modbus_pdu(uint8_t function, uint8_t code, uint32_t count)
 {
-    if (code == (function | 0x80U)) {
-        return 2U;
+    if (code == function) {
+        return fieldscribe_modbus_reads(function) ? (2U + count) : 5U;
     }
-    if (code != function) {
-        return 0U;
-    }
-    return fieldscribe_modbus_reads(function) ? (2U + count) : 5U;
+    return (code == (function | 0x80U)) ? 2U : 0U; /* an exception, or nothing */
 }
 
-/* True if the request reads. */
-static bool fieldscribe_modbus_is_read(const fieldscribe_modbus_request *request)
-{
-#if defined(FIELDSCRIBE_MODBUS_WRITES)
-    return request->writer == NULL;
-#else
-    (void)request;
-    return true;
-#endif
-}
-
-/* True for a broadcast, which nobody answers. */
-static bool fieldscribe_modbus_is_to_all(
+/* True if the device has the unit, or if all units may get the function. */
+static bool fieldscribe_modbus_has_unit(
     const fieldscribe_modbus_profile *profile, const fieldscribe_modbus_request *request)
 {
 #if defined(FIELDSCRIBE_MODBUS_WRITES)
-    return request->unit == profile->broadcast;
-#else
-    (void)profile;
-    (void)request;
-    return false;
-#endif
-}
-
-/* True if the device can have this unit number, or the function may be broadcast. */
-static bool fieldscribe_modbus_has_unit(
-    const fieldscribe_modbus_profile *profile, const fieldscribe_modbus_request *request, uint32_t function)
-{
-#if defined(FIELDSCRIBE_MODBUS_WRITES)
-    if (fieldscribe_modbus_is_to_all(profile, request)) {
-        return ((profile->to_all >> function) & 1U) != 0U;
+    if (request->unit == profile->broadcast) {
+        return ((profile->to_all >> request->function) & 1U) != 0U;
     }
-#else
-    (void)function;
 #endif
     return (request->unit >= profile->first_unit) && (request->unit <= profile->last_unit);
 }
@@ -792,15 +783,18 @@ static bool fieldscribe_modbus_has_unit(
 static fieldscribe_modbus_status fieldscribe_modbus_allows(
     const fieldscribe_modbus_profile *profile, const fieldscribe_modbus_request *request)
 {
-    const uint32_t function = request->function;
-    const uint8_t end = fieldscribe_modbus_is_read(request) ? FIELDSCRIBE_MODBUS_READS : FIELDSCRIBE_MODBUS_FUNCTIONS;
-    if ((function >= end) || (profile->most[function] == 0U)) {
+#if defined(FIELDSCRIBE_MODBUS_WRITES)
+    const uint8_t end = (request->writer == NULL) ? FIELDSCRIBE_MODBUS_READS : FIELDSCRIBE_MODBUS_FUNCTIONS;
+#else
+    const uint8_t end = FIELDSCRIBE_MODBUS_READS;
+#endif
+    if ((request->function >= end) || (profile->most[request->function] == 0U)) {
         return FIELDSCRIBE_MODBUS_BAD_FUNCTION;
     }
-    if (!fieldscribe_modbus_has_unit(profile, request, function)) {
+    if (!fieldscribe_modbus_has_unit(profile, request)) {
         return FIELDSCRIBE_MODBUS_BAD_UNIT;
     }
-    if ((request->count == 0U) || (request->count > profile->most[function])) {
+    if ((request->count == 0U) || (request->count > profile->most[request->function])) {
         return FIELDSCRIBE_MODBUS_BAD_COUNT;
     }
     return ((((uint32_t)request->address + request->count - 1U) >> 16) != 0U) /* the last item */
@@ -821,24 +815,24 @@ static fieldscribe_modbus_status fieldscribe_modbus_put_request(const fieldscrib
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t *size)
 {
     fieldscribe_modbus_status status = fieldscribe_modbus_allows(profile, request);
-    uint16_t number = request->count;
-    if (status != FIELDSCRIBE_MODBUS_OK) {
-        return status;
-    }
 #if defined(FIELDSCRIBE_MODBUS_WRITES)
-    number = request->number;
-    if (request->writer != NULL) {
+    if ((status == FIELDSCRIBE_MODBUS_OK) && (request->writer != NULL)) {
         status = request->writer->put(profile, request, buffer, size);
-    } else
-#endif
-    {
+    } else {
         *size = 6U;
     }
+#else
+    *size = 6U;
+#endif
     if (status == FIELDSCRIBE_MODBUS_OK) {
         buffer[0] = request->unit;
         buffer[1] = request->function;
         fieldscribe_modbus_put(&buffer[2], request->address);
-        fieldscribe_modbus_put(&buffer[4], number);
+#if defined(FIELDSCRIBE_MODBUS_WRITES)
+        fieldscribe_modbus_put(&buffer[4], request->number);
+#else
+        fieldscribe_modbus_put(&buffer[4], request->count);
+#endif
     }
     return status;
 }
@@ -857,24 +851,6 @@ static uint8_t fieldscribe_modbus_coils(const fieldscribe_modbus_request *reques
     return byte;
 }
 
-/* Writes the byte count and the data of 0Fh and 10h. */
-static void fieldscribe_modbus_put_values(
-    const fieldscribe_modbus_request *request, uint8_t *data, uint32_t data_bytes)
-{
-    uint32_t at;
-#if defined(FIELDSCRIBE_MODBUS_COILS)
-    if (request->function == 0x0FU) {
-        for (at = 0U; at < data_bytes; ++at) {
-            data[at] = fieldscribe_modbus_coils(request, 8U * at);
-        }
-        return;
-    }
-#endif
-    for (at = 0U; at < (data_bytes / 2U); ++at) {
-        fieldscribe_modbus_put(data + (2U * at), request->values[at]);
-    }
-}
-
 /* True if all values to write are coils, 0 or 1. */
 static bool fieldscribe_modbus_are_coils(const fieldscribe_modbus_request *request)
 {
@@ -885,75 +861,57 @@ static bool fieldscribe_modbus_are_coils(const fieldscribe_modbus_request *reque
     return at == request->count;
 }
 
-static fieldscribe_modbus_status fieldscribe_modbus_put_several(const fieldscribe_modbus_profile *profile,
+/* Writes the byte count and the data of 0Fh. */
+static fieldscribe_modbus_status fieldscribe_modbus_put_coils(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t *size)
 {
-    uint32_t data_bytes = (uint32_t)request->count * 2U;
-    if (request->values == NULL) {
-        return FIELDSCRIBE_MODBUS_BAD_COUNT;
+    uint32_t data_bytes = ((uint32_t)request->count + 7U) / 8U;
+    uint32_t at;
+    data_bytes += profile->pads_coil_bytes ? (data_bytes % 2U) : 0U;
+    if ((request->values == NULL) || (!fieldscribe_modbus_are_coils(request))) {
+        return FIELDSCRIBE_MODBUS_BAD_VALUE;
     }
-#if defined(FIELDSCRIBE_MODBUS_COILS)
-    if (request->function == 0x0FU) {
-        data_bytes = ((uint32_t)request->count + 7U) / 8U;
-        data_bytes += profile->pads_coil_bytes ? (data_bytes % 2U) : 0U;
-        if (!fieldscribe_modbus_are_coils(request)) {
-            return FIELDSCRIBE_MODBUS_BAD_VALUE;
-        }
-    }
-#else
-    (void)profile;
-#endif
-    if ((data_bytes > 0xFFU) || (*size < 7U) || (data_bytes > (*size - 7U))) {
+    if ((data_bytes > 0xFFU) || ((7U + data_bytes) > *size)) {
         return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     }
     buffer[6] = (uint8_t)data_bytes;
-    fieldscribe_modbus_put_values(request, &buffer[7], data_bytes);
+    for (at = 0U; at < data_bytes; ++at) {
+        buffer[7U + at] = fieldscribe_modbus_coils(request, 8U * at);
+    }
     *size = 7U + (size_t)data_bytes;
     return FIELDSCRIBE_MODBUS_OK;
 }
 
-static fieldscribe_modbus_status fieldscribe_modbus_put_writing(const fieldscribe_modbus_profile *profile,
+/* Checks a single value, or writes the byte count and the data of several. */
+static fieldscribe_modbus_status fieldscribe_modbus_put_values(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t *size)
 {
-    fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_OK;
-    switch (request->function) {
+    const uint32_t data_bytes = (uint32_t)request->count * 2U;
+    uint32_t at;
 #if defined(FIELDSCRIBE_MODBUS_COILS)
-    case 0x05U:
-        if ((request->number != 0U) && (request->number != 0xFF00U)) {
-            status = FIELDSCRIBE_MODBUS_BAD_VALUE;
-        }
-        break;
-    case 0x0FU:
-        return fieldscribe_modbus_put_several(profile, request, buffer, size);
-#endif
-    case 0x06U:
-        break;
-    case 0x08U:
-        if (request->address != 0U) {
-            status = FIELDSCRIBE_MODBUS_BAD_ADDRESS;
-        }
-        break;
-    case 0x10U:
-        return fieldscribe_modbus_put_several(profile, request, buffer, size);
-    default:
-        status = FIELDSCRIBE_MODBUS_BAD_FUNCTION;
-        break;
+    if (request->function == 0x0FU) {
+        return fieldscribe_modbus_put_coils(profile, request, buffer, size);
     }
-    *size = 6U;
-    return status;
-}
-
-/* An empty reply. */
-static void fieldscribe_modbus_clear(fieldscribe_modbus_reply *reply)
-{
-    reply->count = 0U;
-    reply->exception = 0U;
-}
-
-/* The number of values that fit into a reply. */
-static size_t fieldscribe_modbus_room(const fieldscribe_modbus_reply *reply)
-{
-    return (reply->values == NULL) ? 0U : reply->room;
+    if ((request->function == 0x05U) && (request->number != 0U) && (request->number != 0xFF00U)) {
+        return FIELDSCRIBE_MODBUS_BAD_VALUE;
+    }
+#else
+    (void)profile;
+#endif
+    if (request->function != 0x10U) { /* a single value: that of 08h is for sub-function 0 */
+        *size = 6U;
+        return ((request->function == 0x08U) && (request->address != 0U)) ? FIELDSCRIBE_MODBUS_BAD_ADDRESS
+                                                                          : FIELDSCRIBE_MODBUS_OK;
+    }
+    if ((request->values == NULL) || (data_bytes > 0xFFU) || ((7U + data_bytes) > *size)) {
+        return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
+    }
+    buffer[6] = (uint8_t)data_bytes;
+    for (at = 0U; at < (data_bytes / 2U); ++at) {
+        fieldscribe_modbus_put(&buffer[7U + (2U * at)], request->values[at]);
+    }
+    *size = 7U + (size_t)data_bytes;
+    return FIELDSCRIBE_MODBUS_OK;
 }
 
 /* Checks the echo: the value that was written, or the number of items. */
@@ -964,7 +922,7 @@ static fieldscribe_modbus_status fieldscribe_modbus_take_echo(
         (fieldscribe_modbus_get(&pdu[3]) != request->number)) {
         return FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
     }
-    if ((request->function <= 0x08U) && (fieldscribe_modbus_room(reply) > 0U)) {
+    if ((request->function <= 0x08U) && (reply->values != NULL) && (reply->room > 0U)) {
         reply->values[0] = request->number;
         reply->count = 1U;
 #if defined(FIELDSCRIBE_MODBUS_COILS)
@@ -977,7 +935,7 @@ static fieldscribe_modbus_status fieldscribe_modbus_take_echo(
 }
 
 static const struct fieldscribe_modbus_writer fieldscribe_modbus_writes = {
-    &fieldscribe_modbus_put_writing, &fieldscribe_modbus_take_echo};
+    &fieldscribe_modbus_put_values, &fieldscribe_modbus_take_echo};
 
 fieldscribe_modbus_request fieldscribe_modbus_write(
     uint8_t unit, const fieldscribe_modbus_writing *what, const uint16_t *values, size_t given)
@@ -988,7 +946,7 @@ fieldscribe_modbus_request fieldscribe_modbus_write(
         0U,
 #endif
         0U, values, &fieldscribe_modbus_writes};
-    if ((values != NULL) && (given > 0U) && (given >= what->count)) {
+    if ((values != NULL) && (given > 0U) && (given >= what->count) && !fieldscribe_modbus_reads(what->function)) {
         request.count = what->count;
         request.number = (what->function > 0x08U) ? what->count : values[0];
 #if defined(FIELDSCRIBE_MODBUS_COILS)
@@ -1064,40 +1022,11 @@ fieldscribe_modbus_status fieldscribe_modbus_build_pdu(const fieldscribe_modbus_
     return status;
 }
 
-/* The item at an index of the read values. */
-static uint16_t fieldscribe_modbus_item(const fieldscribe_modbus_request *request, const uint8_t *data, uint32_t at)
-{
-#if defined(FIELDSCRIBE_MODBUS_COILS)
-    if (request->function <= 0x02U) {
-        return (uint16_t)(((uint32_t)data[at / 8U] >> (at % 8U)) & 1U);
-    }
-#else
-    (void)request;
-#endif
-    return fieldscribe_modbus_get(&data[2U * at]);
-}
-
-static fieldscribe_modbus_status fieldscribe_modbus_take_items(
-    const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
-{
-    uint32_t at;
-    if ((uint32_t)size != (2U + fieldscribe_modbus_item_bytes(request))) {
-        return FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
-    }
-    if (fieldscribe_modbus_room(reply) < request->count) {
-        return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
-    }
-    reply->count = request->count;
-    for (at = 0U; at < request->count; ++at) {
-        reply->values[at] = fieldscribe_modbus_item(request, &pdu[2], at);
-    }
-    return FIELDSCRIBE_MODBUS_OK;
-}
-
 /* Parses an answer with the right unit and function, or an exception: its own `size` bytes, from the function on. */
 static fieldscribe_modbus_status fieldscribe_modbus_take_answer(
     const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
 {
+    uint32_t at;
     if (pdu[0] != request->function) {
         reply->exception = pdu[1];
         return FIELDSCRIBE_MODBUS_EXCEPTION;
@@ -1107,14 +1036,31 @@ static fieldscribe_modbus_status fieldscribe_modbus_take_answer(
         return request->writer->take(request, pdu, size, reply);
     }
 #endif
-    return fieldscribe_modbus_take_items(request, pdu, size, reply);
+    if ((uint32_t)size != fieldscribe_modbus_answer(request)) {
+        return FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
+    }
+    if ((reply->values == NULL) || (reply->room < request->count)) {
+        return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
+    }
+    reply->count = request->count;
+    for (at = 0U; at < request->count; ++at) {
+#if defined(FIELDSCRIBE_MODBUS_COILS)
+        reply->values[at] = (uint16_t)((request->function <= 0x02U)
+            ? (((uint32_t)pdu[2U + (at / 8U)] >> (at % 8U)) & 1U)
+            : fieldscribe_modbus_get(&pdu[2U + (2U * at)]));
+#else
+        reply->values[at] = fieldscribe_modbus_get(&pdu[2U + (2U * at)]);
+#endif
+    }
+    return FIELDSCRIBE_MODBUS_OK;
 }
 
 fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(
     const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, fieldscribe_modbus_reply *reply)
 {
     size_t pdu;
-    fieldscribe_modbus_clear(reply);
+    reply->count = 0U;
+    reply->exception = 0U;
     if (length < 5U) {
         return FIELDSCRIBE_MODBUS_SHORT_FRAME;
     }
@@ -1141,7 +1087,7 @@ static fieldscribe_modbus_status fieldscribe_modbus_take_tcp(
     if (size == whole) {
         return fieldscribe_modbus_take_answer(request, pdu, size, reply);
     }
-    if ((pdu[0] == request->function) && fieldscribe_modbus_is_read(request)) {
+    if ((pdu[0] == request->function) && fieldscribe_modbus_reads(request->function)) {
         return FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
     }
     return (size < whole) ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
@@ -1152,7 +1098,8 @@ fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(
     const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, fieldscribe_modbus_reply *reply)
 {
     size_t expected;
-    fieldscribe_modbus_clear(reply);
+    reply->count = 0U;
+    reply->exception = 0U;
     if (length < 9U) {
         return FIELDSCRIBE_MODBUS_SHORT_FRAME;
     }
@@ -1179,7 +1126,8 @@ fieldscribe_modbus_status fieldscribe_modbus_parse_pdu(
     const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t length, fieldscribe_modbus_reply *reply)
 {
     size_t expected;
-    fieldscribe_modbus_clear(reply);
+    reply->count = 0U;
+    reply->exception = 0U;
     if (length < 2U) {
         return FIELDSCRIBE_MODBUS_SHORT_FRAME;
     }
@@ -1197,20 +1145,17 @@ static uint32_t fieldscribe_modbus_around(fieldscribe_modbus_framing framing)
     return (framing == FIELDSCRIBE_MODBUS_TCP) ? 7U : 3U;
 }
 
-/* The length of the answer to a request, from the function on. */
-static uint32_t fieldscribe_modbus_answer(const fieldscribe_modbus_request *request)
-{
-    return fieldscribe_modbus_reads(request->function)
-        ? (2U + fieldscribe_modbus_item_bytes(request))
-        : 5U;
-}
-
 uint32_t fieldscribe_modbus_reply_length(const fieldscribe_modbus_profile *profile,
     fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request)
 {
-    return fieldscribe_modbus_is_to_all(profile, request)
-        ? 0U
-        : (fieldscribe_modbus_around(framing) + fieldscribe_modbus_answer(request));
+#if defined(FIELDSCRIBE_MODBUS_WRITES)
+    if (request->unit == profile->broadcast) {
+        return 0U;
+    }
+#else
+    (void)profile;
+#endif
+    return fieldscribe_modbus_around(framing) + fieldscribe_modbus_answer(request);
 }
 
 uint32_t fieldscribe_modbus_left(const fieldscribe_modbus_profile *profile, fieldscribe_modbus_framing framing,
@@ -1235,29 +1180,25 @@ uint32_t fieldscribe_modbus_left(const fieldscribe_modbus_profile *profile, fiel
     return (length < whole) ? (whole - (uint32_t)length) : 0U;
 }
 
-/* The least length of an answer that starts with these bytes; 0 if none does, or if its checksum is wrong. */
-
+/* The least length of an answer that starts with these bytes, if any; 0 if none does, or if it is corrupt. */
 static size_t fieldscribe_modbus_begun_rtu(
     const fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t length)
 {
-    size_t whole;
-    if (bytes[0] != receiver->unit) {
+    size_t whole = 5U; /* the shortest answer */
+    if ((length > 0U) && (bytes[0] != receiver->unit)) {
         return 0U;
     }
-    if (length == 1U) {
-        return 5U; /* the shortest answer */
-    }
-    whole = (size_t)fieldscribe_modbus_pdu(receiver->function, bytes[1], (length > 2U) ? bytes[2] : 0U);
-    if (whole == 0U) {
-        return 0U;
-    }
-    whole += 3U;
-    if ((whole > receiver->size) || ((whole <= length) && (fieldscribe_modbus_crc(bytes, whole) != 0U))) {
-        return 0U;
+    if (length > 1U) {
+        whole = 3U + (size_t)fieldscribe_modbus_pdu(receiver->function, bytes[1], (length > 2U) ? bytes[2] : 0U);
+        if ((whole == 3U) || (whole > receiver->size) ||
+            ((whole <= length) && (fieldscribe_modbus_crc(bytes, whole) != 0U))) {
+            return 0U;
+        }
     }
     return whole;
 }
 
+/* The same over TCP. */
 static size_t fieldscribe_modbus_begun_tcp(
     const fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t length)
 {
@@ -1269,9 +1210,10 @@ static size_t fieldscribe_modbus_begun_tcp(
     while ((at < length) && (at < 4U) && (bytes[at] == head[at])) {
         ++at;
     }
-    if (((at < length) && (at < 4U)) || (whole < shortest) || (whole > receiver->size) ||
-        ((length > 6U) && (bytes[6] != receiver->unit)) ||
-        ((length > 7U) && (fieldscribe_modbus_pdu(receiver->function, bytes[7], 0U) == 0U))) {
+    if ((length > 0U) &&
+        (((at < length) && (at < 4U)) || (whole < shortest) || (whole > receiver->size) ||
+            ((length > 6U) && (bytes[6] != receiver->unit)) ||
+            ((length > 7U) && (fieldscribe_modbus_pdu(receiver->function, bytes[7], 0U) == 0U)))) {
         whole = 0U;
     } else if (length < 8U) {
         whole = shortest; /* enough to see whose answer it is */
@@ -1281,46 +1223,22 @@ static size_t fieldscribe_modbus_begun_tcp(
     return whole;
 }
 
-/* The length of the shortest answer, enough to know the length of any. */
-static size_t fieldscribe_modbus_shortest(const fieldscribe_modbus_receiver *receiver)
-{
-#if defined(FIELDSCRIBE_MODBUS_OVER_TCP)
-    return receiver->shortest;
-#else
-    (void)receiver;
-    return 5U;
-#endif
-}
-
-/* The least length of an answer that starts with these bytes; 0 if none does, or if it is corrupt. */
-static size_t fieldscribe_modbus_begun(
-    const fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t length)
-{
-#if defined(FIELDSCRIBE_MODBUS_OVER_TCP)
-    return receiver->begun(receiver, bytes, length);
-#else
-    return fieldscribe_modbus_begun_rtu(receiver, bytes, length);
-#endif
-}
-
-/* A receiver for RTU. */
 static fieldscribe_modbus_receiver fieldscribe_modbus_rtu_receiver(
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size)
 {
     const fieldscribe_modbus_receiver receiver = {buffer, size, 0U, 0U, 5U, request->unit, request->function, false,
 #if defined(FIELDSCRIBE_MODBUS_OVER_TCP)
-        5U, request->transaction, &fieldscribe_modbus_begun_rtu,
+        request->transaction, &fieldscribe_modbus_begun_rtu,
 #endif
     };
     return receiver;
 }
 
-/* A receiver for TCP. */
 static fieldscribe_modbus_receiver fieldscribe_modbus_tcp_receiver(
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size)
 {
     const fieldscribe_modbus_receiver receiver = {buffer, size, 0U, 0U, 9U, request->unit, request->function, false,
-        9U, request->transaction, &fieldscribe_modbus_begun_tcp};
+        request->transaction, &fieldscribe_modbus_begun_tcp};
     return receiver;
 }
 
@@ -1346,30 +1264,31 @@ fieldscribe_modbus_receiver fieldscribe_modbus_await_tcp(const fieldscribe_modbu
 static void fieldscribe_modbus_settle(fieldscribe_modbus_receiver *receiver, bool silence)
 {
     const size_t end = receiver->length;
-    size_t whole;
-    size_t from;
-    size_t rest;
     size_t at = 0U;
+    size_t from = 0U;
+    size_t rest;
+    size_t least;
     bool whole_only = silence;
     for (;;) {
-        whole = fieldscribe_modbus_shortest(receiver);
-        for (from = 0U; from < end; ++from) {
-            const size_t least = fieldscribe_modbus_begun(receiver, &receiver->buffer[from], end - from);
-            if ((least != 0U) && ((!whole_only) || (least <= (end - from)))) {
-                whole = least;
-                break;
-            }
-        }
         rest = end - from;
-        if ((rest > 0U) || (!whole_only)) {
+#if defined(FIELDSCRIBE_MODBUS_OVER_TCP)
+        least = receiver->begun(receiver, &receiver->buffer[from], rest);
+#else
+        least = fieldscribe_modbus_begun_rtu(receiver, &receiver->buffer[from], rest);
+#endif
+        if ((least != 0U) && ((!whole_only) || (least <= rest))) {
             break;
         }
-        whole_only = false;
+        ++from;
+        if (rest == 0U) { /* there is no complete answer: look for the start of one */
+            whole_only = false;
+            from = 0U;
+        }
     }
-    receiver->next = whole;
-    receiver->done = whole <= rest;
+    receiver->next = least;
+    receiver->done = least <= rest;
     if (receiver->done) {
-        rest = whole; /* drop bytes after the answer */
+        rest = least; /* drop bytes after the answer */
     }
     receiver->length = rest;
     receiver->dropped += end - rest;
@@ -1420,31 +1339,29 @@ static void fieldscribe_modbus_listen(const fieldscribe_modbus_line *line, field
     }
 }
 
-/* Sends a built request of `length` bytes if its answer fits the buffer; the frame adds `around` bytes. */
-static fieldscribe_modbus_status fieldscribe_modbus_sent(const fieldscribe_modbus_line *line,
-    const fieldscribe_modbus_request *request, size_t length, const fieldscribe_modbus_reply *reply, size_t around)
+/* Sends a built request and receives the answer, which has `around` bytes beside its PDU; after noise it waits again. */
+static fieldscribe_modbus_status fieldscribe_modbus_exchange(const fieldscribe_modbus_line *line,
+    const fieldscribe_modbus_request *request, const fieldscribe_modbus_reply *reply, size_t around, size_t length,
+    fieldscribe_modbus_receiver *receiver)
 {
     if (((around + fieldscribe_modbus_answer(request)) > line->size) ||
-        (fieldscribe_modbus_is_read(request) && (fieldscribe_modbus_room(reply) < request->count))) {
+        (fieldscribe_modbus_reads(request->function) && ((reply->values == NULL) || (reply->room < request->count)))) {
         return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     }
     line->send(line->context, line->buffer, length);
-    return FIELDSCRIBE_MODBUS_OK;
-}
-
-/* Receives the answer; after noise it waits `answer_ms` once more. OK if the answer is complete. */
-static fieldscribe_modbus_status fieldscribe_modbus_received(
-    const fieldscribe_modbus_line *line, fieldscribe_modbus_receiver *receiver)
-{
-    fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_SHORT_FRAME;
-    fieldscribe_modbus_listen(line, receiver);
-    if (receiver->dropped > 0U) {
-        status = FIELDSCRIBE_MODBUS_NOISE;
-        if (receiver->length == 0U) {
-            fieldscribe_modbus_listen(line, receiver);
-        }
+#if defined(FIELDSCRIBE_MODBUS_WRITES)
+    if (request->unit == line->profile->broadcast) { /* nobody answers */
+        return FIELDSCRIBE_MODBUS_OK;
     }
-    return receiver->done ? FIELDSCRIBE_MODBUS_OK : status;
+#endif
+    fieldscribe_modbus_listen(line, receiver);
+    if (receiver->dropped == 0U) {
+        return FIELDSCRIBE_MODBUS_SHORT_FRAME;
+    }
+    if (receiver->length == 0U) {
+        fieldscribe_modbus_listen(line, receiver);
+    }
+    return FIELDSCRIBE_MODBUS_NOISE;
 }
 
 fieldscribe_modbus_status fieldscribe_modbus_ask_rtu(const fieldscribe_modbus_line *line,
@@ -1459,19 +1376,16 @@ fieldscribe_modbus_status fieldscribe_modbus_ask_rtu(const fieldscribe_modbus_li
     for (dropped = 0U; late && (dropped < FIELDSCRIBE_MODBUS_ASK_MOST); ++dropped) {
         late = line->receive(line->context, line->answer_ms, &byte);
     }
-    fieldscribe_modbus_clear(reply);
+    reply->count = 0U;
+    reply->exception = 0U;
     status = fieldscribe_modbus_build_rtu(line->profile, request, line->buffer, line->size, &length);
-    if (status == FIELDSCRIBE_MODBUS_OK) {
-        status = fieldscribe_modbus_sent(line, request, length, reply, 3U);
-    }
-    if ((status != FIELDSCRIBE_MODBUS_OK) || fieldscribe_modbus_is_to_all(line->profile, request)) {
+    if (status != FIELDSCRIBE_MODBUS_OK) {
         return status;
     }
     receiver = fieldscribe_modbus_rtu_receiver(request, line->buffer, line->size);
-    status = fieldscribe_modbus_received(line, &receiver);
-    return (status == FIELDSCRIBE_MODBUS_OK)
-        ? fieldscribe_modbus_take_answer(request, &receiver.buffer[1], receiver.length - 3U, reply)
-        : status;
+    status = fieldscribe_modbus_exchange(line, request, reply, 3U, length, &receiver);
+    return receiver.done ? fieldscribe_modbus_take_answer(request, &line->buffer[1], receiver.length - 3U, reply)
+                         : status;
 }
 
 fieldscribe_modbus_status fieldscribe_modbus_ask_tcp(const fieldscribe_modbus_line *line,
@@ -1480,19 +1394,16 @@ fieldscribe_modbus_status fieldscribe_modbus_ask_tcp(const fieldscribe_modbus_li
     fieldscribe_modbus_receiver receiver;
     fieldscribe_modbus_status status;
     size_t length;
-    fieldscribe_modbus_clear(reply);
+    reply->count = 0U;
+    reply->exception = 0U;
     status = fieldscribe_modbus_build_tcp(line->profile, request, line->buffer, line->size, &length);
-    if (status == FIELDSCRIBE_MODBUS_OK) {
-        status = fieldscribe_modbus_sent(line, request, length, reply, 7U);
-    }
-    if ((status != FIELDSCRIBE_MODBUS_OK) || fieldscribe_modbus_is_to_all(line->profile, request)) {
+    if (status != FIELDSCRIBE_MODBUS_OK) {
         return status;
     }
     receiver = fieldscribe_modbus_tcp_receiver(request, line->buffer, line->size);
-    status = fieldscribe_modbus_received(line, &receiver);
-    return (status == FIELDSCRIBE_MODBUS_OK)
-        ? fieldscribe_modbus_take_tcp(request, &receiver.buffer[7], receiver.length - 7U, reply)
-        : status;
+    status = fieldscribe_modbus_exchange(line, request, reply, 7U, length, &receiver);
+    return receiver.done ? fieldscribe_modbus_take_tcp(request, &line->buffer[7], receiver.length - 7U, reply)
+                         : status;
 }
 
 /* Sends one request to a unit and receives the answer. */

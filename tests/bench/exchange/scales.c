@@ -17,17 +17,17 @@ __attribute__((noinline)) int scale(void)
 #if PART == 6
     uint16_t raw = 0U;
     volatile int64_t count = 2500000;
-    return (siemens_mm4_main_setpoint_encode_count(count, &with, &raw) != SIEMENS_MM4_OK) || (raw != 0x2000U);
+    return (siemens_mm4_main_setpoint_encode_count(count, &with, &raw) != FIELDSCRIBE_OK) || (raw != 0x2000U);
 #elif PART == 7
     int64_t count = 0;
     volatile uint16_t raw = 0x2000U;
-    return (siemens_mm4_main_actual_value_decode_count(raw, &with, &count) != SIEMENS_MM4_OK) ||
+    return (siemens_mm4_main_actual_value_decode_count(raw, &with, &count) != FIELDSCRIBE_OK) ||
            (count != 2500000);
 #elif PART == 8
     int64_t count = 0;
     volatile uint16_t raw = 4000U;
     volatile int8_t exponent = -1;
-    return (woodward_mpu2s_generator_voltage_l1_l2_decode_count(raw, exponent, &count) != WOODWARD_MPU2S_OK) ||
+    return (woodward_mpu2s_generator_voltage_l1_l2_decode_count(raw, exponent, &count) != FIELDSCRIBE_OK) ||
            (count == 0);
 #else
     return 0;

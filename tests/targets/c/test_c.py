@@ -214,7 +214,7 @@ int main(void)
 {
     volatile double value = -0.3; /* times ten it is -3 rounded, and a little more than that when the product is not */
     int16_t raw = 0;
-    return sample_drive_temperature_encode(value, &raw) == SAMPLE_DRIVE_OK && raw == -1 ? 0 : 1;
+    return sample_drive_temperature_encode(value, &raw) == FIELDSCRIBE_OK && raw == -1 ? 0 : 1;
 }
 """
 

@@ -43,7 +43,7 @@ int main(void)
 {
     volatile double value = 0.15;
     uint16_t raw = 0U;
-    return sample_drive_base_frequency_encode(value, &raw) == SAMPLE_DRIVE_OK && raw == 2U ? 0 : 1;
+    return sample_drive_base_frequency_encode(value, &raw) == FIELDSCRIBE_OK && raw == 2U ? 0 : 1;
 }
 """
 

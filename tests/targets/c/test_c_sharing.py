@@ -109,9 +109,9 @@ int main(void)
     int64_t first = 0;
     int64_t turned = 0;
     int64_t alone = 0;
-    return sharing_first_decode_count(12, &with, &first) == SHARING_OK && first == 8 &&
-            sharing_turned_decode_count(12, &with, &turned) == SHARING_OK && turned == first &&
-            sharing_by_other_decode_count(12, 4U, &alone) == SHARING_OK && alone == 3
+    return sharing_first_decode_count(12, &with, &first) == FIELDSCRIBE_OK && first == 8 &&
+            sharing_turned_decode_count(12, &with, &turned) == FIELDSCRIBE_OK && turned == first &&
+            sharing_by_other_decode_count(12, 4U, &alone) == FIELDSCRIBE_OK && alone == 3
         ? 0
         : 1;
 }

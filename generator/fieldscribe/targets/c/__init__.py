@@ -40,6 +40,8 @@ def outputs(
     points = generated_points(device, scope)
     own, bus = header_context(device, points, scope), frames_of(device).header(device, points, scope)
     context, sections = {"device": own, "bus": bus.context, "exchanges": exchanges}, bus.sections
+    if scope.calls_only:
+        scope.left_out = lambda view: set[str]().union(*(section.left_out(view) for section in sections.values()))
     yield f"c/{device.id}.h", header(device, own, points, scope, render)
     if not exchanges and not frames_of(device).has_facts:
         return

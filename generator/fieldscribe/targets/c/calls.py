@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
-from fieldscribe.targets.c.conversions import value_type
+from fieldscribe.targets.c.conversions import is_rechecked, value_type
 from fieldscribe.targets.c.layout import Function, called, function
 from fieldscribe.targets.c.scope import HeaderScope, raw_kind
 from fieldscribe.targets.c.views import PointView
@@ -24,12 +24,24 @@ class Transfer(NamedTuple):
     """Whether the requests carry the words of a text, too, for which the family has macros."""
     selects: str = ""
     """The arguments that say what is written before; empty if nothing is."""
+    is_long: bool = False
+    """Whether the macros are those of 32-bit numbers, which join two words."""
 
 
 def call_names(item: str, view: PointView, transfer: Transfer, scope: HeaderScope) -> list[str]:
     """Return the names of the functions that read and write a point under that name."""
     ways = [way for way in ("read", "write", "store") if getattr(transfer, way)]
     return [f"{scope.prefix}_{way}_{item}" for way in ways if view.shape != "text" or _has_text_calls(view, transfer)]
+
+
+def left_out(view: PointView, transfer: Transfer) -> set[str]:
+    """Return the names of functions that no call needs, for a point that a program reads and writes by calls alone."""
+    unneeded: set[str] = set()
+    if transfer.write and not is_rechecked(view.point) and _value(view)[2] is not None:
+        unneeded.add(f"{view.function}_check")
+    if transfer.is_long or not view.point.writable:
+        unneeded.add(f"{view.function}_to_words")
+    return unneeded
 
 
 def calls(view: PointView, transfer: Transfer, scope: HeaderScope) -> Iterator[Function]:
@@ -46,8 +58,8 @@ def calls(view: PointView, transfer: Transfer, scope: HeaderScope) -> Iterator[F
     if transfer.read:
         names = point.scale_arguments if view.shape == "ruled" and tail else ()
         parameters = [*handle, *scope.parameters(point, names), f"{kind} *{value}"]
-        way, *arguments = _decoding(view, value, tail, scope.passed(names))
-        body = called(f"{based}{way}_WORD{_several(view)}", *selects, transfer.read, *arguments)
+        way, *arguments = _decoding(view, value, tail, scope.passed(names), is_long=transfer.is_long)
+        body = called(f"{based}{way}_{_size(view, transfer)}", *selects, transfer.read, *arguments)
         yield function(f"{start}CALL", f"{scope.prefix}_read_{view.fields.item}", parameters, body)
     for verb, to in (("write", transfer.write), ("store", transfer.store)):
         if to:
@@ -56,8 +68,8 @@ def calls(view: PointView, transfer: Transfer, scope: HeaderScope) -> Iterator[F
             where = to if point.bits is None else f"{transfer.read}, {to}"
             way = "WRITE" if point.bits is None else "UPDATE"
             encoded = _encoding(view, kind, value, tail, scope.passed(names))
-            kind_of_raw, bits = view.raw_type, _bits_of_raw(view)
-            body = called(f"{based}{way}_WORD{_several(view)}", *selects, where, kind_of_raw, encoded, bits)
+            raw = [view.raw_type, encoded, *[_bits_of_raw(view)] * (not transfer.is_long)]
+            body = called(f"{based}{way}_{_size(view, transfer)}", *selects, where, *raw)
             yield function(f"{start}CALL", f"{scope.prefix}_{verb}_{view.fields.item}", parameters, body)
 
 
@@ -178,8 +190,8 @@ def _text_cases(view: PointView, transfer: Transfer, scope: HeaderScope) -> Iter
             yield f"CALL_{way.upper()}_TEXT({call}, {base}, {beside}{decoded})"
 
 
-def _several(view: PointView) -> str:
-    return "S" if view.point.words > 1 else ""
+def _size(view: PointView, transfer: Transfer) -> str:
+    return "LONG" if transfer.is_long else "WORDS" if view.point.words > 1 else "WORD"
 
 
 def _value(view: PointView) -> tuple[str, str, str | None]:
@@ -191,9 +203,11 @@ def _value(view: PointView) -> tuple[str, str, str | None]:
     return "value", view.raw_type, None
 
 
-def _decoding(view: PointView, value: str, tail: str | None, passed: tuple[str, ...]) -> tuple[str, ...]:
+def _decoding(
+    view: PointView, value: str, tail: str | None, passed: tuple[str, ...], *, is_long: bool = False
+) -> tuple[str, ...]:
     """Return the macro that turns the words into the value, and its arguments."""
-    raw = raw_of_words(view)
+    raw = ("fieldscribe_signed32(raw)" if view.point.info.signed else "raw") if is_long else raw_of_words(view)
     if tail is None:
         return "READ", value, raw
     if view.special is not None or view.shape in ("ruled", "float") or (view.scale and view.scale.count_fits):

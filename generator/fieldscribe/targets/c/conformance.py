@@ -9,7 +9,6 @@ from fieldscribe.targets.c.calls import call_cases
 from fieldscribe.targets.c.conversions import value_type
 from fieldscribe.targets.c.declarations import shares_values
 from fieldscribe.targets.c.frames import Frames, frames_of, kind_of
-from fieldscribe.targets.c.header import STATUSES
 from fieldscribe.targets.c.layout import folded
 from fieldscribe.targets.c.point_templates import GeneratedPoint, texts_of
 from fieldscribe.targets.c.point_views import names_of
@@ -18,6 +17,12 @@ from fieldscribe.targets.c.special_codes import special_defines
 from fieldscribe.targets.c.views import PointView
 from fieldscribe.targets.c.word_functions import has_form, has_words
 from fieldscribe.text import upper
+
+_STATUSES = (
+    *("OK", "OUT_OF_RANGE", "NOT_A_NUMBER", "UNKNOWN_VALUE", "ZERO_FACTOR", "NO_CASE", "OVERFLOW", "SPECIAL"),
+    "MALFORMED",
+)
+"""The status of conversions."""
 
 
 def suite_context(device: Device, points: Sequence[GeneratedPoint], scope: HeaderScope) -> dict[str, object]:
@@ -33,7 +38,7 @@ def suite_context(device: Device, points: Sequence[GeneratedPoint], scope: Heade
         "family": device.family,
         "structs": [struct for point, _, _ in points if point.arguments for struct in _structs_of(point, scope)],
         "points": [each.point.item for each in points],
-        "statuses": [(f"{capitals}_{status}", status.lower()) for status in STATUSES],
+        "statuses": [(f"FIELDSCRIBE_{status}", status.lower()) for status in _STATUSES],
         "groups": [(group, f"{prefix}_{group}_blocks") for group, blocks in device.blocks.items() if blocks],
         "names": [codes.kind for codes in emitted if codes.kind in named],
         "codes": [

@@ -160,9 +160,8 @@ class Writer:
 
     def _rounded(self, scale: Scaled) -> tuple[str, ...]:
         limits = self._outer()
-        if not scale.wide and not is_rechecked(self.point) and self.kind in ("u8", "s8", "u16", "s16"):
-            if scale.factor:
-                return (f"return fieldscribe_scale_{self.kind}(value, {scale.factor}, {limits}, raw);",)
+        kinds = ("u32", "s32") if scale.wide else ("u8", "s8", "u16", "s16")
+        if self.kind in kinds and not is_rechecked(self.point):
             return (f"return fieldscribe_round_{self.kind}({scale.steps}, {limits}, raw);",)
         return self._whole(f"fieldscribe_rounded{'_wide' if scale.wide else ''}({scale.steps}, {limits})")
 

@@ -11,7 +11,7 @@ from fieldscribe.arithmetic.words import group_mask, mask_of
 from fieldscribe.families import family
 from fieldscribe.model import Device, Point
 from fieldscribe.resources import Render
-from fieldscribe.targets.c.calls import Transfer, call_names, calls
+from fieldscribe.targets.c.calls import Transfer, call_names, calls, left_out
 from fieldscribe.targets.c.layout import WIDTH, folded
 from fieldscribe.targets.c.point_templates import GeneratedPoint, texts_of
 from fieldscribe.targets.c.scope import HeaderScope, hexadecimal, wire_kind
@@ -68,6 +68,12 @@ class Frames:
     def transfer(self, view: PointView) -> Transfer:
         """Return the transfers of the functions that read and write a point."""
         return self._made[view].transfer if view in self._made else Transfer("")
+
+    def left_out(self, view: PointView) -> set[str]:
+        """Return the names of a point's functions that nobody calls, as only calls read and write it."""
+        frame = self._made.get(view)
+        called = frame is not None and not frame.descriptors and bool(frame.transfer.read or frame.transfer.write)
+        return left_out(view, frame.transfer) if frame is not None and called else set()
 
     def text(self, render: Render, scope: HeaderScope | None) -> str:
         """Return the descriptors of all points, and with a scope the functions that read and write one."""

@@ -19,14 +19,11 @@ from fieldscribe.text import c_comment, c_string, upper
 
 _INCLUDE = re.compile(r'^#include "([^"\n]+)".*\n', re.MULTILINE)
 
+_FLOATS = "\0"
+"""The mark before the functions in floating point of a point: no text of a description holds it."""
+
 _MOST_OLD_NAMES = 64
 """The most old names of a struct: those of its points multiply."""
-
-STATUSES = (
-    *("OK", "OUT_OF_RANGE", "NOT_A_NUMBER", "UNKNOWN_VALUE", "ZERO_FACTOR", "NO_CASE", "OVERFLOW", "SPECIAL"),
-    "MALFORMED",
-)
-"""The status of conversions."""
 
 
 def header_context(device: Device, points: Sequence[GeneratedPoint], scope: HeaderScope) -> dict[str, object]:
@@ -43,7 +40,6 @@ def header_context(device: Device, points: Sequence[GeneratedPoint], scope: Head
         "identifications": list(identification_defines(device, scope)),
         "telegrams": list(zip(device.telegrams, telegrams_of(device, scope), strict=True)),
         "aliases": tuple(aliases_of(points, scope)),
-        "statuses": STATUSES,
         "dates": has_dates(device),
         "doubts": [filled(c_comment(text).split(" "), " ", "   ") for text in wording.open_texts(device.doubts)],
         "double": any(view.computes_in_double for view in dict.fromkeys(each.view for each in points)),
@@ -101,16 +97,22 @@ def header(
 ) -> str:
     """Return the text of `<device>.h`; `context` is that of `header_context`."""
     texts: list[str] = []
+    floats: list[str] = []
     for name, of_points in _points_by_group(device, points, scope, render).items():
         if of_points:
-            texts += [folded(render("c/group.h.j2", {"title": _title(name, scope)})), *of_points]
-    return framed(render, "c/device.h.j2", {"device": context}, {"points": "".join(texts)})
+            texts.append(folded(render("c/group.h.j2", {"title": _title(name, scope)})))
+        for text in of_points:
+            whole, _, floating = text.partition(_FLOATS)
+            texts.append(whole)
+            floats.append(floating)
+    sections = {"points": "".join(texts), "floats": "".join(floats)}
+    return framed(render, "c/device.h.j2", {"device": context}, sections)
 
 
 def _points_by_group(
     device: Device, points: Iterable[GeneratedPoint], scope: HeaderScope, render: Render
 ) -> dict[str, list[str]]:
-    """Return the texts of each group's points."""
+    """Return the texts of each group's points, with their functions in floating point after a mark."""
     texts = texts_of(points, lambda view: _point_text(view, scope, render))
     by_group: dict[str, list[str]] = {group.name: [] for group in device.groups}
     for point in device.points:
@@ -121,14 +123,12 @@ def _points_by_group(
 
 
 def _point_text(view: PointView, scope: HeaderScope, render: Render) -> str:
-    """Return the part of the header that is one point."""
-    functions = list(functions_of(view, scope))
-    context = {
-        "p": view,
-        "functions": [function.text for function in functions if not function.floating],
-        "floats": [function.text for function in functions if function.floating],
-    }
-    return folded(render("c/point.h.j2", context))
+    """Return the part of the header that is one point, and after a mark its functions in floating point."""
+    left_out = scope.left_out(view)
+    functions = [function for function in functions_of(view, scope) if function.name not in left_out]
+    whole = [function.text for function in functions if not function.floating]
+    floats = "".join([f"{function.text}\n" for function in functions if function.floating])
+    return folded(render("c/point.h.j2", {"p": view, "functions": whole})) + _FLOATS + folded(floats)
 
 
 def _title(group: str, scope: HeaderScope) -> str:

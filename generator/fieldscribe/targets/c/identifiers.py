@@ -6,7 +6,6 @@ from fieldscribe.model import Device, Point
 from fieldscribe.targets.c.declarations import flag_defines
 from fieldscribe.targets.c.frames import frames_of, old_names_of
 from fieldscribe.targets.c.header import (
-    STATUSES,
     aliases_of,
     identification_defines,
     line_defines,
@@ -27,7 +26,6 @@ _OWN = Owner("target", "what the header needs")
 SIGNIFICANT = 63
 """The characters of a name that every C compiler compares (C99 5.2.4.1, MISRA C 5.1 and 5.4)."""
 
-_TYPES = ("status", "real")
 _VERSION = tuple(f"DESCRIPTION_VERSION{tail}" for tail in ("", "_MAJOR", "_MINOR", "_PATCH", "_NUMBER"))
 _MACROS = ("H", *_VERSION, "DESCRIPTION_DIGEST", "DESCRIPTION")
 _HEADERS = frozenset(
@@ -52,8 +50,7 @@ def identifiers(device: Device) -> Iterator[Names]:
 def _identifiers(device: Device) -> Iterator[Named]:
     scope = scope_of(device)
     points = generated_points(device, scope, names_only=True)
-    yield _OWN, [f"{scope.prefix}_{name}" for name in _TYPES]
-    yield _OWN, [f"{scope.upper}_{name}" for name in (*STATUSES, *_MACROS)]
+    yield _OWN, [f"{scope.upper}_{name}" for name in _MACROS]
     yield Owner("target", "times and settings of the line"), [macro for _, macro, _ in line_defines(device, scope)]
     yield Owner("target", "what identifies the device"), [each.macro for each in identification_defines(device, scope)]
     for telegram, name in zip(device.telegrams, telegrams_of(device, scope), strict=True):

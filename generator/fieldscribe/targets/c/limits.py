@@ -117,11 +117,15 @@ def _between(interval: Interval, point: Point, scope: HeaderScope) -> str:
     Limits are signed; an unsigned number above their type is above every limit.
     """
     raw = "(raw > (uint64_t)INT64_MAX) ? INT64_MAX : (int64_t)raw" if point.type == "u64" else "raw"
+    ends = [(end, end is interval.low) for end in (interval.low, interval.high)]
     low, high = (
-        limit(end, scope, is_low=end is interval.low)
-        if isinstance(end, Limit)
-        else f"fieldscribe_whole_of({bare(end)})"
-        for end in (interval.low, interval.high)
+        _sure_limit(end, scope, is_low=is_low) if isinstance(end, Limit) else bare(end) for end, is_low in ends
+    )
+    if low and high:
+        return f"fieldscribe_check_wide({raw}, {low}, {high})"
+    low, high = (
+        limit(end, scope, is_low=is_low) if isinstance(end, Limit) else f"fieldscribe_whole_of({bare(end)})"
+        for end, is_low in ends
     )
     return f"fieldscribe_between({raw}, {low}, {high})"
 
@@ -188,6 +192,17 @@ def limit(bound: Limit, scope: HeaderScope, *, is_low: bool) -> str:
         return text
     applies = tests[0] if len(tests) == 1 else f"({' && '.join(tests)})"
     return f"{applies} ? {text} : fieldscribe_whole_of({bare(start)})"
+
+
+def _sure_limit(bound: Limit, scope: HeaderScope, *, is_low: bool) -> str:
+    """Return a limit that other points always give, without a division, as a number; empty if it is another."""
+    start, rule = bound.outermost(low=is_low), scope.lowered.rule(bound.rule)
+    if not _fits(rule) or any(codes for _, codes in bound.unless):
+        return ""
+    number, divisor = _simple(rule, scope)
+    if divisor != "1" or _stays_inside(rule, start, is_low=is_low):
+        return number if divisor == "1" else ""
+    return f"fieldscribe_{'larger' if is_low else 'smaller'}({number}, {bare(start)})"
 
 
 def _bare_limit(rule: Rule, scope: HeaderScope) -> str:

@@ -6,7 +6,7 @@ from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.model import Enum, Flag, Point
 from fieldscribe.targets.c.conversions import Writer, value_type
 from fieldscribe.targets.c.declarations import defines, value_defines
-from fieldscribe.targets.c.layout import INLINE, Function, filled, function
+from fieldscribe.targets.c.layout import INLINE, WIDTH, Function, filled, function
 from fieldscribe.targets.c.limits import ranges_table, rule_view
 from fieldscribe.targets.c.scales import Scaled
 from fieldscribe.targets.c.scope import HeaderScope, bare, hexadecimal, raw_type, signed
@@ -136,9 +136,8 @@ def _enum_view(enum: Enum, point: Point, fields: PointFields, scope: HeaderScope
     return EnumView(
         entries=tuple(entries),
         fits_int=all(-(1 << 15) <= entry.raw < 1 << 15 for entry in enum.entries),
-        table_type=_TABLES[form],
         table=table,
-        rows=tuple(filled(_rows(named, form), ", ", "    ")),
+        names=tuple(_table(f"static const {_TABLES[form]} {table}[]", list(_rows(named, form)))),
         function=lookup,
         lookup=_lookup(lookup, table, value_type(point), form),
     )
@@ -159,6 +158,12 @@ def _rows(named: Mapping[int, tuple[str, str]], form: str) -> Iterator[str]:
         name, text = named[raw]
         pair = f"{{{name if form == 'sparse' else f'(uint64_t){name}'}, {text}}}"
         yield text if form == "dense" else pair
+
+
+def _table(declaration: str, rows: list[str]) -> list[str]:
+    """Return the lines of a table: one if it fits."""
+    line = f"{declaration} = {{{', '.join(rows)}}};"
+    return [line] if len(line) <= WIDTH else [f"{declaration} = {{", *filled(rows, ", ", "    "), "};"]
 
 
 def _lookup(name: str, table: str, kind: str, form: str) -> str:

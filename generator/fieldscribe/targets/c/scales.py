@@ -67,12 +67,6 @@ class Scaled:
         return number if becomes else cast(self.count_type, number)
 
     @property
-    def factor(self) -> str:
-        """The factor of a rule that only multiplies, else empty."""
-        rule = self._plan.rule
-        return bare(rule.ratio.numerator) if rule.ratio.denominator == 1 and not rule.offset else ""
-
-    @property
     def steps(self) -> str:
         """The unrounded raw number of `value`: times, divided by, plus; each step is rounded to floating point."""
         ratio, offset = self._plan.rule.ratio, self._plan.rule.offset

@@ -1,9 +1,10 @@
 """The state of a header while it is built: prefixes, points, shared items already emitted; and literals of C."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import lru_cache
+from typing import Any
 
 from fieldscribe.arithmetic.exact import pattern_of
 from fieldscribe.arithmetic.words import INT32, INT64, UINT64
@@ -96,7 +97,8 @@ class HeaderScope:
     `enums` are the names of enums of points, `digits` of those of decimal digits, `spaces` the space of each group
     whose points all have the same. `shared` are what several points share, each with the first of them. `spelling` has
     the expressions for raw numbers of other points in the function being written. `calls_only` leaves out the
-    descriptor of a point that calls read and write.
+    descriptor of a point that calls read and write; `left_out` returns the names of the functions
+    of a view that nobody needs.
     """
 
     prefix: str
@@ -108,6 +110,7 @@ class HeaderScope:
     spelling: str = "{}_raw"
     shared: dict[str, str] = field(default_factory=dict)
     calls_only: bool = False
+    left_out: Callable[[Any], set[str]] = lambda _: set()
 
     @property
     def points(self) -> Mapping[str, Point]:

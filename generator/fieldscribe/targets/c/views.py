@@ -44,13 +44,12 @@ class PointFields(NamedTuple):
 
 
 class EnumView(NamedTuple):
-    """Enumerators (name, literal, comment), the table of their names, and the function that looks one up."""
+    """Enumerators (name, literal, comment), the table of their names in lines, and the function that looks one up."""
 
     entries: tuple[tuple[str, str, str], ...]
     fits_int: bool
-    table_type: str
     table: str
-    rows: tuple[str, ...]
+    names: tuple[str, ...]
     function: str
     lookup: str
 

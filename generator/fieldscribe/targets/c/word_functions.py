@@ -152,6 +152,11 @@ def words_functions(point: Point, name: str) -> Iterator[Function]:
     yield function(f"{INLINE} {kind}", f"{name}_from_words", (f"const {words}",), f"return {joined};")
 
 
+def is_plain_long(point: Point) -> bool:
+    """Return True if the raw number is all bits of two words."""
+    return point.words == 2 and point.width == 32 and not (point.swapped or point.coding or point.text)
+
+
 def coded_bits(point: Point) -> str:
     """Return the expression for the bits of the number `raw`."""
     if not point.coding:

@@ -70,7 +70,7 @@ int main(void)
         return 13;
     }
     /* a text: a message for each word */
-    if (kitchen_can_fault_text_1_encode("Hot", 3U, words) != KITCHEN_CAN_OK) {
+    if (kitchen_can_fault_text_1_encode("Hot", 3U, words) != FIELDSCRIBE_OK) {
         return 6;
     }
     for (at = 0U; at < KITCHEN_CAN_FAULT_TEXT_1_WORDS; ++at) {

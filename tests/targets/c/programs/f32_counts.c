@@ -3,11 +3,11 @@
 #define POINT(name)                                                                          \
     if (sscanf(line, #name " encode %lld", &number) == 1) {                                  \
         status = sample_drive_##name##_encode_count(number, &raw);                           \
-        printf("%d %lld\n", (int)status, status == SAMPLE_DRIVE_OK ? (long long)raw : 0);    \
+        printf("%d %lld\n", (int)status, status == FIELDSCRIBE_OK ? (long long)raw : 0);    \
     }                                                                                        \
     if (sscanf(line, #name " decode %lld", &number) == 1) {                                  \
         status = sample_drive_##name##_decode_count((uint32_t)number, &count);               \
-        printf("%d %lld\n", (int)status, status == SAMPLE_DRIVE_OK ? (long long)count : 0);  \
+        printf("%d %lld\n", (int)status, status == FIELDSCRIBE_OK ? (long long)count : 0);  \
     }
 int main(void)
 {

@@ -6,12 +6,12 @@ int main(void)
         const uint16_t raw = (uint16_t)at;
         uint16_t again = 1;
         sample_drive_real value = sample_drive_frequency_fine_decode(raw);
-        if (sample_drive_frequency_fine_encode(value, &again) != SAMPLE_DRIVE_OK || again != raw) {
+        if (sample_drive_frequency_fine_encode(value, &again) != FIELDSCRIBE_OK || again != raw) {
             return 1;
         }
         value = sample_drive_main_frequency_decode(raw); /* the old name of base_frequency */
         if (raw <= SAMPLE_DRIVE_BASE_FREQUENCY_RAW_MAX &&
-            (sample_drive_base_frequency_encode(value, &again) != SAMPLE_DRIVE_OK || again != raw)) {
+            (sample_drive_base_frequency_encode(value, &again) != FIELDSCRIBE_OK || again != raw)) {
             return 2;
         }
         if (sizeof(sample_drive_third_decode(raw)) != sizeof(sample_drive_real)) {

@@ -7,7 +7,7 @@ void start(void);
 void start(void)
 {
     uint16_t raw = 0U;
-    if (sample_drive_base_frequency_encode_count(wanted, &raw) == SAMPLE_DRIVE_OK) {
+    if (sample_drive_base_frequency_encode_count(wanted, &raw) == FIELDSCRIBE_OK) {
         wire = raw;
     }
     shown = sample_drive_base_frequency_decode_count(wire);

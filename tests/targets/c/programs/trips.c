@@ -3,13 +3,13 @@
     for (at = first; at <= first + 65535; ++at) {                                          \
         const type raw = (type)at;                                                         \
         type again = (type)(raw ^ 1);                                                      \
-        if (trips_##point##_encode(trips_##point##_decode(raw), &again) != TRIPS_OK ||     \
+        if (trips_##point##_encode(trips_##point##_decode(raw), &again) != FIELDSCRIBE_OK ||     \
             again != raw) {                                                                \
             return 1;                                                                      \
         }                                                                                  \
         again = (type)(raw ^ 1);                                                           \
         if (trips_##point##_encode_count(trips_##point##_decode_count(raw), &again) !=     \
-                TRIPS_OK || again != raw) {                                                \
+                FIELDSCRIBE_OK || again != raw) {                                                \
             return 2;                                                                      \
         }                                                                                  \
     }

@@ -19,7 +19,7 @@ int main(void)
     fieldscribe_uss_reply reply = {heard, KITCHEN_USS_TELEGRAM_TASK_WORDS, 0U, 0U, 0U, 0U};
     fieldscribe_uss_request request = fieldscribe_uss_read(3U, &kitchen_uss_command_source_frame.read);
     const kitchen_uss_with_normalisation_and_reference_frequency setpoint = {0U, 0x42480000U};
-    if (kitchen_uss_main_setpoint_encode_count(4000000, &setpoint, &raw) != KITCHEN_USS_OK || raw != 0x3333) {
+    if (kitchen_uss_main_setpoint_encode_count(4000000, &setpoint, &raw) != FIELDSCRIBE_OK || raw != 0x3333) {
         return 1;
     }
     /* the constant bit comes by itself */

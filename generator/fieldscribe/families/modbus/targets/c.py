@@ -17,7 +17,7 @@ from fieldscribe.targets.c.layout import called
 from fieldscribe.targets.c.point_templates import GeneratedPoint
 from fieldscribe.targets.c.scope import HeaderScope, hexadecimal, unsigned
 from fieldscribe.targets.c.views import Define, PointView
-from fieldscribe.targets.c.word_functions import places_of
+from fieldscribe.targets.c.word_functions import is_plain_long, places_of
 from fieldscribe.targets.identifiers import Named, Owner
 from fieldscribe.text import c_comment, upper
 from fieldscribe.wording.rules import run_text, steps_texts
@@ -150,7 +150,11 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
         if each.point.readable:
             by_name.setdefault(each.point.name, []).append(each)
     members = Members(scope)
-    blocks = [_blocks(group, blocks, by_name, members) for group, blocks in device.blocks.items() if blocks]
+    blocks = [
+        _blocks(group, blocks, by_name, members)
+        for group, blocks in device.blocks.items()
+        if any(len(block.points) > 1 or not scope.calls_only for block in blocks)
+    ]
     block_most = f"{scope.upper}_BLOCK_MOST", unsigned(max(counts, default=0))
     commands = [_command(command, scope) for command in device.commands]
     stepped = stepped_views(device.stepped_commands, scope)
@@ -286,8 +290,10 @@ def _frame(point: Point, view: PointView, layouts: frames.Layouts, selections: S
     address = view.fields.address
     to = address if point.write_place is None else hexadecimal(min(point.write_place.addresses))
     selected, is_plain = selections.of(point), not point.selects
-    transfers = _transfer(read, address, point.words), _transfer(write, to, point.words), "", point.base or "", is_plain
-    transfer = Transfer("modbus") if selected is None else Transfer("modbus", *transfers, selected)
+    is_long = is_plain_long(point) and not (selected or point.base)
+    several = "" if point.words == 1 else f", {unsigned(places_of(point)[0] if is_long else point.words)}"
+    transfers = _transfer(read, address, several), _transfer(write, to, several), "", point.base or "", is_plain
+    transfer = Transfer("modbus") if selected is None else Transfer("modbus", *transfers, selected, is_long)
     if layouts.scope.calls_only and not text:
         return frames.Frame((), (), transfer)
     text_place = f"{{{view.function}_addresses, {address}, {point.words}U}}"
@@ -312,11 +318,14 @@ def _row(view: PointView, layout: str, access: str, scope: HeaderScope) -> str:
     return called(f"FIELDSCRIBE_MODBUS_{'BASED_' if view.point.base else ''}ROW", *facts)
 
 
-def _transfer(function: int | None, address: str, words: int) -> str:
-    """Return the arguments of the runtime's macros for reading or writing a point; empty if no request does."""
+def _transfer(function: int | None, address: str, several: str) -> str:
+    """Return the arguments of the runtime's macros for reading or writing a point; empty if no request does.
+
+    `several` is the last argument of those for several words: their number, or of a 32-bit number its high word.
+    """
     if not function:
         return ""
-    return f"{unsigned(function)}, {address}{f', {words}U' if words > 1 else ''}"
+    return f"{unsigned(function)}, {address}{several}"
 
 
 def _cases(point: Point, view: PointView, access: str, selected: str) -> Iterator[str]:
