@@ -168,6 +168,8 @@ class Bench:
         try:
             layout = layout_of(name, variants, tuple(settings.get("given", {}).items()), self._folder)
         except UnclearError as error:
+            if isinstance(error, BrokenError):  # the description has errors, which have places of their own
+                raise
             raise _wrong(settings, "device", error.message, error.hint) from None
         moves = has_behaviour(name, self._folder) if moves is None else moves in (True, "yes")
         low, high = layout.device.bus.units
