@@ -1026,6 +1026,12 @@ fieldscribe_modbus_status fieldscribe_modbus_build_pdu(const fieldscribe_modbus_
 static fieldscribe_modbus_status fieldscribe_modbus_take_answer(
     const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
 {
+#if defined(FIELDSCRIBE_MODBUS_COILS)
+    const uint32_t count = request->count;
+    const uint32_t data_bytes = (request->function <= 0x02U) ? ((count + 7U) / 8U) : (count * 2U);
+#else
+    const uint32_t data_bytes = (uint32_t)request->count * 2U;
+#endif
     uint32_t at;
     if (pdu[0] != request->function) {
         reply->exception = pdu[1];
@@ -1036,7 +1042,7 @@ static fieldscribe_modbus_status fieldscribe_modbus_take_answer(
         return request->writer->take(request, pdu, size, reply);
     }
 #endif
-    if ((uint32_t)size != fieldscribe_modbus_answer(request)) {
+    if ((uint32_t)size != (2U + data_bytes)) {
         return FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
     }
     if ((reply->values == NULL) || (reply->room < request->count)) {
