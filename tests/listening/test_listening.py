@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator
 from io import BytesIO, TextIOWrapper
 from pathlib import Path
 from random import Random
+from unittest.mock import MagicMock, PropertyMock
 
 import can
 import pytest
@@ -17,7 +18,7 @@ from fieldscribe.families import family
 from fieldscribe.families.frame_results import Options
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.families.uss.telegrams import telegram
-from fieldscribe.listening.chunks import BYTES, STREAM, Chunk
+from fieldscribe.listening.chunks import BYTES, STREAM, Chunk, serial_chunks
 from fieldscribe.listening.exchanges import Exchange, Statistics
 from fieldscribe.listening.listener import Listener, Station
 from fieldscribe.live.lines import read_line
@@ -250,6 +251,16 @@ def test_a_serial_line_that_others_talk_on() -> None:
     with pytest.raises(UnclearError, match="it went away"):
         for _ in chunks:
             pass
+
+
+def test_a_serial_line_is_read_as_its_bytes_come(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One byte is awaited; what came with it is read at once."""
+    port = MagicMock()
+    type(port).in_waiting = PropertyMock(side_effect=[0, 3])
+    port.read.side_effect = bytes
+    monkeypatch.setattr("serial.serial_for_url", lambda *_, **__: port)
+    chunks = serial_chunks(read_line("rtu:///dev/nowhere"), "8N1")
+    assert [len(next(chunks).data), len(next(chunks).data)] == [1, 3]
 
 
 def test_a_bus_that_others_talk_on() -> None:

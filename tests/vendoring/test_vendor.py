@@ -18,7 +18,7 @@ from fieldscribe.user_errors import UnclearError
 from fieldscribe.vendoring.requests import LANGUAGES, LICENCE, CodeRequest, files_of
 from fieldscribe.vendoring.selection import select
 from support.c_device import PROGRAMS, WARNINGS
-from support.described import SHIPPED, described, group, head, made, shipped, together, write
+from support.described import SHIPPED, described, group, head, loaded_in, made, shipped, together, write
 from support.places import ROOT
 from support.toolchains import succeed, tool
 
@@ -73,6 +73,12 @@ def test_points_are_chosen_with_what_they_need(device: str, words: tuple[str, ..
     whole = shipped(device)
     group = words[0].removeprefix("group:")
     assert names(whole, *words) == (points or [point.item for point in whole.points if point.group == group])
+
+
+def test_a_code_comes_before_a_name(tmp_path: Path) -> None:
+    device = loaded_in(tmp_path, described("- {name: first, code: second, at: 1}\n- {name: second, at: 2}\n"))
+    assert names(device, "second") == ["first"]
+    assert names(device, "name:second") == ["second"]
 
 
 def test_a_command_is_chosen_by_its_name() -> None:

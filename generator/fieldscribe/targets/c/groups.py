@@ -102,14 +102,10 @@ class StructView:
 
 
 class Members:
-    """Builds the members of points; the text is laid out once for each view and length of the position.
+    """Builds the members of points; the text is laid out once for each view and length of the position."""
 
-    `compares_texts` says whether the conformance program compares texts, too.
-    """
-
-    def __init__(self, scope: HeaderScope, *, compares_texts: bool = True) -> None:
-        self.scope, self._compares_texts = scope, compares_texts
-        self._texts = TextTemplates()
+    def __init__(self, scope: HeaderScope) -> None:
+        self.scope, self._texts = scope, TextTemplates()
 
     def of(self, each: GeneratedPoint, position: int) -> tuple[str, str, str]:
         """Return the members of a point whose words begin at a position, the statements that fill them, and the cases.
@@ -123,9 +119,8 @@ class Members:
 
     def _lay_out(self, point: Point, view: PointView, at: str) -> str:
         members = list(_members(point, view, f"words[{at}]"))
-        cases = () if point.text is not None and not self._compares_texts else _cases(point, view, self.scope)
-        texts = [declaration for declaration, _ in members], [statement for _, statement in members], cases
-        return "\0".join(map("\n".join, texts))
+        texts = [declaration for declaration, _ in members], [statement for _, statement in members]
+        return "\0".join(map("\n".join, (*texts, _cases(point, view, self.scope))))
 
 
 def _members(point: Point, view: PointView, word: str) -> Iterator[tuple[str, str]]:
@@ -158,15 +153,20 @@ def _members(point: Point, view: PointView, word: str) -> Iterator[tuple[str, st
 
 def _cases(point: Point, view: PointView, scope: HeaderScope) -> Iterator[str]:
     """Yield the macros of the conformance program that compare the members of a point with its raw number."""
-    item, kind, is_counted = view.fields.item, raw_type(point), _is_plainly_counted(point, view)
+    item, kind, old_items = view.fields.item, raw_type(point), point.old_items
     if point.text is not None:
-        member = "BYTES" if point.text.is_bytes else "PACKED"
+        member, end = ("BYTES", "bytes") if point.text.is_bytes else ("PACKED", "text")
         is_plain = point.text.is_plain and not point.text.is_bytes
         yield f"MEMBER_TEXT({item})" if is_plain else f"MEMBER_{member}({scope.prefix}, {item})"
+        size = f"sizeof group.{item}_{end}"
+        yield from (
+            f'MEMBER("{item}", memcmp(group.{old}_{end}, group.{item}_{end}, {size}) == 0)' for old in old_items
+        )
         return
+    is_counted = _is_plainly_counted(point, view)
     yield f"MEMBER_COUNT({scope.prefix}, {item}, {kind})" if is_counted else f"MEMBER_RAW({item}, {kind})"
     end = "count" if is_counted else "raw"
-    yield from (f'MEMBER("{item}", group.{old}_{end} == group.{item}_{end})' for old in point.old_items)
+    yield from (f'MEMBER("{item}", group.{old}_{end} == group.{item}_{end})' for old in old_items)
 
 
 def _raw(point: Point, name: str, word: str) -> str:

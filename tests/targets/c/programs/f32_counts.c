@@ -14,7 +14,7 @@ int main(void)
     char line[99];
     long long number;
     while (fgets(line, sizeof line, stdin) != NULL) {
-        sample_drive_status status;
+        fieldscribe_status status;
         uint32_t raw = 0U;
         int64_t count = 0;
 @POINTS@

@@ -5,7 +5,7 @@ int main(void)
     for (at = 0; at <= 65535U; ++at) {
         const uint16_t raw = (uint16_t)at;
         uint16_t again = 1;
-        sample_drive_real value = sample_drive_frequency_fine_decode(raw);
+        fieldscribe_real value = sample_drive_frequency_fine_decode(raw);
         if (sample_drive_frequency_fine_encode(value, &again) != FIELDSCRIBE_OK || again != raw) {
             return 1;
         }
@@ -14,7 +14,7 @@ int main(void)
             (sample_drive_base_frequency_encode(value, &again) != FIELDSCRIBE_OK || again != raw)) {
             return 2;
         }
-        if (sizeof(sample_drive_third_decode(raw)) != sizeof(sample_drive_real)) {
+        if (sizeof(sample_drive_third_decode(raw)) != sizeof(fieldscribe_real)) {
             return 3;
         }
     }

@@ -83,7 +83,7 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
     exchanges = [request_and_answer(device.messages, writes=writes) for writes in (False, True)]
     # the arrays of the messages that read, answer that, write, answer that; empty for a missing one
     arrays = tuple(_array(message, scope) for exchange in exchanges for message in exchange)
-    members = Members(scope, compares_texts=False)
+    members = Members(scope)
     telegrams = [
         _telegram(telegram, carrying[telegram.name], placed, members)
         for telegram in device.telegrams

@@ -117,7 +117,8 @@ def _devices(found: Found, base: Base, block: int, length: int, *, many: bool) -
         return
     yield _chain(found, first, this)
     yield {place + at: word ^ (at == size - 1) for place in found.places for at, word in enumerate(found.words)}
-    yield _chain(found, last) | {last + size: other[0], last + size + 1: _LAST - 1}
+    for too_long in (other[0], block):
+        yield _chain(found, last) | {last + size: too_long, last + size + 1: _LAST - last - size}
     yield dict(list(_chain(found, last, this).items())[: size + 1])
     yield _chain(found, min(found.places), *[(other[0], [])] * _MOST_BLOCKS)
 
