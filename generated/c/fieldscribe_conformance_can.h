@@ -24,10 +24,11 @@ typedef struct fieldscribe_named_telegram {
     const fieldscribe_can_telegram *telegram;
 } fieldscribe_named_telegram;
 
-/* A function that compares the struct of a telegram, or of a message of signals, with the frames of a vector. */
+/* A function that compares the struct of a telegram, or of a message of signals, with the frames of a vector. A text is
+   compared with its words. */
 typedef struct fieldscribe_named_values {
     const char *name;
-    void (*hold)(fieldscribe_vector *v);
+    void (*hold)(fieldscribe_vector *v, const uint16_t *words);
 } fieldscribe_named_values;
 
 /* The tables of a device. */
@@ -190,15 +191,15 @@ FIELDSCRIBE_ONCE void fieldscribe_writes_to(
         fieldscribe_agree(v, fieldscribe_can_word_to_write(&(frame).write, at, &one) == FIELDSCRIBE_CAN_BAD_ADDRESS); \
     }
 
-/* The struct that the frames of the vector fill has the point's number. */
-FIELDSCRIBE_ONCE void fieldscribe_holds_values(fieldscribe_vector *v)
+/* The struct that the frames of the vector fill has the point's number, or the text in these words. */
+FIELDSCRIBE_ONCE void fieldscribe_holds_values(fieldscribe_vector *v, const uint16_t *words)
 {
     const fieldscribe_named_values *one = fieldscribe_tables_of(v)->values;
     while (one->name != NULL && !fieldscribe_spells(fieldscribe_field(v, "telegram"), one->name)) {
         ++one;
     }
     if (one->name != NULL) {
-        one->hold(v);
+        one->hold(v, words);
     }
 }
 
@@ -254,7 +255,7 @@ FIELDSCRIBE_ONCE void fieldscribe_ages(fieldscribe_vector *v, const fieldscribe_
             fieldscribe_untouched(v, words + (frame).layout->words, sizeof words[0]);            \
             fieldscribe_taken_##kind(v, (frame).layout, words);                                  \
             fieldscribe_ages(v, &(frame).heard);                                                 \
-            fieldscribe_holds_values(v);                                                         \
+            fieldscribe_holds_values(v, words);                                                  \
         } else {                                                                                 \
             fieldscribe_untouched(v, words, sizeof words);                                       \
             fieldscribe_agree(v, fieldscribe_bits(v, "raw") == 0U);                              \
@@ -345,7 +346,7 @@ FIELDSCRIBE_ONCE void fieldscribe_puts_signals(fieldscribe_vector *v, uint16_t w
         fieldscribe_is_text(v, "status", fieldscribe_can_status_name(status));                   \
         if (status == FIELDSCRIBE_CAN_OK) {                                                      \
             fieldscribe_taken_##kind(v, (frame).layout, words + (frame).heard.high);             \
-            fieldscribe_holds_values(v);                                                         \
+            fieldscribe_holds_values(v, words + (frame).heard.high);                             \
             memset(words, 0, sizeof words);                                                      \
             fieldscribe_put_field_##kind(v, (frame).layout, "raw", words + (frame).heard.high);  \
             fieldscribe_puts_signals(v, (frame).heard.high, words);                              \
@@ -368,6 +369,9 @@ FIELDSCRIBE_ONCE void fieldscribe_puts_signals(fieldscribe_vector *v, uint16_t w
         fieldscribe_is_text(v, "status", fieldscribe_can_status_name(status));                   \
         fieldscribe_is_words(v, "words", words, status == FIELDSCRIBE_CAN_OK ? macro##_WORDS : 0U); \
         fieldscribe_untouched(v, words + macro##_WORDS, sizeof words[0]);                        \
+        if (status == FIELDSCRIBE_CAN_OK) {                                                      \
+            fieldscribe_holds_values(v, words);                                                  \
+        }                                                                                        \
     }
 
 /* ---- Frames ---- */

@@ -237,43 +237,6 @@ FIELDSCRIBE_ONCE bool fieldscribe_is_placed(uint16_t *all, const fieldscribe_mod
     return true;
 }
 
-#define FIELDSCRIBE_MEMBER_TEXT(item)                                                            \
-    FIELDSCRIBE_MEMBER(#item, fieldscribe_is_text_of(group.item##_text, words, what->count))
-#define FIELDSCRIBE_MEMBER_PACKED(device, item)                                                  \
-    if (fieldscribe_spells(fieldscribe_field(v, "point"), #item)) {                             \
-        char text[sizeof group.item##_text];                                                     \
-        (void)device##_##item##_decode(words, text);                                             \
-        fieldscribe_agree(v, strcmp(text, group.item##_text) == 0);                              \
-    }
-
-#define FIELDSCRIBE_MEMBER_BYTES(device, item)                                                   \
-    if (fieldscribe_spells(fieldscribe_field(v, "point"), #item)) {                             \
-        uint8_t bytes[sizeof group.item##_bytes];                                                \
-        device##_##item##_decode(words, bytes);                                                  \
-        fieldscribe_agree(v, memcmp(bytes, group.item##_bytes, sizeof bytes) == 0);              \
-    }
-
-/* A character of words that hold two each, the first in the high byte. */
-static inline uint8_t fieldscribe_character(const uint16_t *words, size_t at)
-{
-    const unsigned both = words[at / 2U];
-    return (uint8_t)(at % 2U == 0U ? both >> 8 : both & 0xFFU);
-}
-
-/* Whether a text is the one in these words, without the blanks at its end. */
-FIELDSCRIBE_ONCE bool fieldscribe_is_text_of(const char *text, const uint16_t *words, size_t count)
-{
-    size_t length = 2U * count;
-    size_t at = 0U;
-    while (length > 0U && fieldscribe_character(words, length - 1U) == 0x20U) {
-        --length;
-    }
-    while (at < length && (uint8_t)text[at] == fieldscribe_character(words, at)) {
-        ++at;
-    }
-    return at == length && text[length] == '\0';
-}
-
 FIELDSCRIBE_ONCE void fieldscribe_fills_groups(
     fieldscribe_vector *v, const fieldscribe_modbus_reading *what, const uint16_t *words)
 {

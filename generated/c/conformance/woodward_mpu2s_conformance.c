@@ -7591,7 +7591,7 @@ static const fieldscribe_named_signals of_signals[] = {
     {NULL, NULL}
 };
 
-static void values_of_visualisation(fieldscribe_vector *v)
+static void values_of_visualisation(fieldscribe_vector *v, const uint16_t *words)
 {
     const char *at = fieldscribe_field(v, "frames");
     fieldscribe_can_frame frame;
@@ -7651,6 +7651,7 @@ static void values_of_visualisation(fieldscribe_vector *v)
     FIELDSCRIBE_MEMBER_RAW(digital_input_faults_1_to_8, uint16_t)
     FIELDSCRIBE_MEMBER_RAW(digital_input_faults_9_to_16, uint16_t)
     FIELDSCRIBE_MEMBER_RAW(internal_faults_7, uint16_t)
+    (void)words;
 }
 
 static const fieldscribe_named_values values[] = {
