@@ -1345,7 +1345,7 @@ static void fieldscribe_modbus_listen(const fieldscribe_modbus_line *line, field
     }
 }
 
-/* Sends a built request and receives the answer, which has `around` bytes beside its PDU; it waits again after noise. */
+/* Sends a built request and receives the answer, which has `around` bytes beside its PDU; after noise it waits on. */
 static fieldscribe_modbus_status fieldscribe_modbus_exchange(const fieldscribe_modbus_line *line,
     const fieldscribe_modbus_request *request, const fieldscribe_modbus_reply *reply, size_t around, size_t length,
     fieldscribe_modbus_receiver *receiver)
