@@ -117,7 +117,7 @@ def test_refusals(item: str, value: str, status: str, words: str) -> None:
     [
         ("base_frequency", "50 V", "is in Hz, not in `V`", "give the number in that unit"),
         ("base_frequency", "50,5 Hz", "decimal comma", "50.5"),
-        ("base_frequency", "fast", "has no name `fast`", "it takes "),
+        ("base_frequency", "fast", "`fast` is no number", "it takes "),
         ("base_frequency", "", "missing", ""),
         ("third", "5 Hz", "has no unit", ""),
         ("frequency_source", "keypat", "has no name `keypat`", "`keypad`"),

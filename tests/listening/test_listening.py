@@ -206,6 +206,8 @@ def test_telegrams(listen: Listen) -> None:
         ("hitachi_l200", classic([b"\1"])[:-1], (), "cut off within packet 1"),
         ("hitachi_l200 siemens_mm4", logged([ASKED]), (), "devices of modbus and uss are not on one line"),
         ("hitachi_l200=x", "", (), "a unit is a number"),
+        ("hitachi_l200", logged([ASKED]), ("--for", "5"), "--for would have no effect on a capture"),
+        ("hitachi_l200", logged([ASKED]), ("--port", "70000"), "`70000` is no TCP port: they are 1 to 65535"),
         ("hitachi_l200", classic([bytes(16)], link=227), (), "1 frame of another kind of bus"),
     ],
 )

@@ -73,6 +73,7 @@ def test_restored_settings_are_as_before(drive: Simulated, on_line: Run) -> None
     assert (tried.code, drive.values["base_frequency"]) == (0, 390)
     assert "would be written: A020 base_frequency = 50 Hz: raw 500" in tried.out
     assert "A020" not in on_line("restore", "a.json", "--dry-run", "--without", "A020").out
+    assert "no point or group `nope`" in on_line("restore", "a.json", "--dry-run", "--only", "nope").err
     restored = on_line("restore", "a.json", "--yes", "--keep")
     assert restored.code == 0
     assert "written: enter" in restored.out

@@ -4,7 +4,7 @@ import gc
 import json
 import sys
 import time
-from argparse import ArgumentParser, Namespace
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from contextlib import ExitStack
 from datetime import UTC, datetime
 from functools import lru_cache
@@ -67,12 +67,19 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_repeated(parser, "--capture", "FILE", "read a capture; - is standard input")
     add("--line", metavar="LINE", help=f"listen on a line: rtu:///dev/ttyUSB0?baud=9600, or a name from {NAME}")
     add("--for", type=duration, metavar="SECONDS", dest="duration", help="stop listening on the line after this time")
-    add_repeated(parser, "--port", "N", "a TCP port of the devices (default: that of the protocol)", type=int)
+    add_repeated(parser, "--port", "N", "a TCP port of the devices (default: that of the protocol)", type=_port)
     add("--write", metavar="FILE", help="also write everything to a new capture (pcapng)")
     add("--summary", action="store_true", help="print only the summary, not each exchange")
     add("-v", "--verbose", action="store_true", help="with each exchange, print its frames and what the manual says")
     add_family_options(parser, "listen")
     add("--format", choices=("text", "jsonl"), default="text", help="how to report (default: text)")
+
+
+def _port(text: str) -> int:
+    """Return a TCP port, for argparse."""
+    if not (text.isascii() and text.isdigit() and len(text) < 6 and 0 < int(text) < 1 << 16):
+        raise ArgumentTypeError(f"`{shortened(text)}` is no TCP port: they are 1 to 65535")
+    return int(text)
 
 
 def run(arguments: Namespace) -> int:
@@ -82,6 +89,7 @@ def run(arguments: Namespace) -> int:
     if bool(arguments.capture) == bool(arguments.line):
         either = "either --capture FILE or --line LINE, not both" if arguments.line else "--capture FILE or --line LINE"
         raise StopError(f"give {either}", "captures are pcap, pcapng, candump, bytes in lines")
+    _require_effect(arguments)
     line = None if arguments.line is None else _line(arguments, project, stations[0].device)
     listener = Listener(stations, options_of(stations[0].device, arguments))
     _require_one_each(stations)
@@ -99,6 +107,14 @@ def run(arguments: Namespace) -> int:
             else:
                 output.follow(stack.enter_context(open(name, "rb")), name)
         return output.end()
+
+
+def _require_effect(arguments: Namespace) -> None:
+    """Raise StopError for an option that has no effect on a capture, or on a line."""
+    if arguments.capture and arguments.duration is not None:
+        raise StopError("--for would have no effect on a capture", "leave it out, or give --line LINE")
+    if arguments.line and arguments.port:
+        raise StopError("--port would have no effect on a line", "leave it out, or give --capture FILE")
 
 
 def _standard_input() -> BufferedReader:

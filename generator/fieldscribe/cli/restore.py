@@ -115,8 +115,9 @@ def _chooser(live: Live, arguments: Namespace) -> Callable[[Point], bool]:
 
 def _named(live: Live, names: list[str]) -> Callable[[Point], bool]:
     """Return a test for points by their names or groups. Raises UnclearError."""
-    groups = {group.name for group in live.model.groups} & {*names}
-    items = {choose_point(live.model, name).item for name in names if name not in groups}
+    known = {group.name for group in live.model.groups}
+    items = {choose_point(live.model, name, groups=known).item for name in names if name not in known}
+    groups = known & {*names}
     return lambda point: point.item in items or point.group in groups
 
 

@@ -20,6 +20,7 @@ from fieldscribe.cli.common import (
     period,
     report_findings,
     some_path,
+    times,
     usage_error,
 )
 from fieldscribe.cli.terminal import FINDINGS, FINE
@@ -31,6 +32,24 @@ from fieldscribe.simulation.servers import serve
 from fieldscribe.user_errors import UnclearError
 
 _PLACES = ("tcp", "serial", "can")
+_USUAL_TIME = 1.0
+_OF_THE_LINE = {
+    "--framing": "framing",
+    "--speed": "speed",
+    "--unit": "unit",
+    "--descriptions": "descriptions",
+    "--variant": "variant",
+    "--with": "given",
+    "--set": "values",
+    "--unmet": "unmet",
+    "--fault": "faults",
+    "--still": "still",
+    "--strict": "strict",
+    "--seed": "seed",
+    "--time-scale": "time_scale",
+}
+"""The options that a bench file has keys for, with their attributes."""
+
 
 EXAMPLE = f"""examples:
   fieldscribe simulate hitachi_l200 --tcp 5020
@@ -56,7 +75,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     line.add_argument("--can", metavar="INTERFACE:CHANNEL", help="answer on a CAN bus, as python-can names it")
     line.add_argument("--bench", type=some_path, metavar="FILE", help="many devices on many lines")
     add("--framing", default="", help="the framing on the line, such as rtu over TCP (default: the usual one)")
-    add("--speed", type=int, default=0, metavar="N", help="bauds of a serial port, or bits/s of a CAN bus")
+    add("--speed", type=times, metavar="N", help="bauds of a serial port, or bits/s of a CAN bus")
     add("--unit", type=int, metavar="N", help="the unit of the device (default: its usual one)")
     add_descriptions(parser)
     add_repeated(parser, "--variant", "AXIS=VALUE", "choose a variant, as in voltage_class=400V")
@@ -67,7 +86,13 @@ def add_arguments(parser: ArgumentParser) -> None:
     add("--still", action="store_true", help="ignore its behaviour file: numbers change only by writes")
     add("--strict", action="store_true", help="print what clients do against the manual, with its line")
     add("--seed", type=int, default=0, metavar="N", help="choose other numbers where the manual gives none")
-    add("--time-scale", type=float, default=1.0, metavar="X", help="let the time of the devices run X times as fast")
+    add(
+        "--time-scale",
+        type=float,
+        default=_USUAL_TIME,
+        metavar="X",
+        help="let the time of the devices run X times as fast",
+    )
     add(
         "--trace",
         type=some_path,
@@ -81,8 +106,8 @@ def run(arguments: Namespace) -> int:
     """Serve until the end, and return the exit code."""
     gc.enable()  # the process runs for long
     file: Path | None = arguments.bench
-    if file is not None and arguments.devices:
-        raise StopError("a bench file names its devices itself", "leave DEVICE out, or --bench")
+    if file is not None:
+        _require_bench_alone(arguments)
     try:
         with _trace(arguments.trace) as stream:
             settings = _settings(arguments) if file is None else read_bench(file)
@@ -92,6 +117,15 @@ def run(arguments: Namespace) -> int:
     except BrokenError as error:
         report_findings(error.report, "text")
         return FINDINGS
+
+
+def _require_bench_alone(arguments: Namespace) -> None:
+    """Raise StopError if something is given beside a bench file that the file says itself."""
+    if arguments.devices:
+        raise StopError("a bench file names its devices itself", "leave DEVICE out, or --bench")
+    for option, attribute in _OF_THE_LINE.items():
+        if getattr(arguments, attribute) not in (None, "", False, [], 0, _USUAL_TIME):
+            raise StopError(f"a bench file is given, and {option} would have no effect", "write it in the file")
 
 
 def _settings(arguments: Namespace) -> Mapping[str, Any]:
@@ -107,9 +141,12 @@ def _settings(arguments: Namespace) -> Mapping[str, Any]:
         name, at, unit = text.rpartition("@") if "@" in text else (text, "", arguments.unit)
         if at and not unit.isdecimal():
             raise StopError(f"`{text}` names no unit", "write DEVICE@UNIT, as in hitachi_l200@3")
+        if at and arguments.unit is not None:
+            raise StopError(f"--unit would have no effect on `{text}`", "give the unit once")
         file = device_file(Namespace(device=name, descriptions=arguments.descriptions))
         devices.append({"device": str(file), **common} | ({} if unit is None else {"unit": int(unit)}))
-    line = {"devices": devices, "framing": arguments.framing, "speed": arguments.speed, "faults": arguments.faults}
+    line = {"devices": devices, "framing": arguments.framing, "faults": arguments.faults}
+    line |= {} if arguments.speed is None else {"speed": arguments.speed}
     line |= {on: at for on in _PLACES if (at := getattr(arguments, on)) is not None}
     return {"lines": [line], **{key: getattr(arguments, key) for key in ("seed", "time_scale", "strict")}}
 

@@ -66,9 +66,11 @@ def read_value(point: Point, text: str, *, as_raw: bool = False) -> Typed:
         if names and not text[:1].isdigit():
             known = dict.fromkeys([entry.name for entry in point.enum.entries] if point.enum else names)
             raise _unknown(message, text.casefold(), names, known) from error
-        if text[:1].isalpha() and not _HEX_DIGITS.fullmatch(text):
+        if text[:1].isalpha():
             allowed = "on or off" if point.width == 1 else wording.range_text(point)
-            raise UnclearError(message, f"it takes {allowed or 'numbers only'}") from error
+            marked = f"; hexadecimal is 0x{text}" if _HEX_DIGITS.fullmatch(text) else ""
+            message = message if names or point.width == 1 else f"{label(point)}: `{shortened(text)}` is no number"
+            raise UnclearError(message, f"it takes {allowed or 'numbers only'}{marked}") from error
         raise UnclearError(error.message, error.hint) from error
     if point.form not in ("enum", "flags", "bit", "digits"):
         return Typed(number, 0)

@@ -3,7 +3,7 @@
 Raises UnclearError with a hint.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from difflib import get_close_matches
 
@@ -48,10 +48,13 @@ def present(device: Device, points: Iterable[Point]) -> list[Point]:
     return [point for point in candidates if not absent(point.when, device.variants)] or candidates
 
 
-def choose_point(device: Device, text: str, *, index: int | None = None, any_variant: bool = False) -> Point:
+def choose_point(
+    device: Device, text: str, *, index: int | None = None, any_variant: bool = False, groups: Collection[str] = ()
+) -> Point:
     """Return the one point with this code, name or address. Raises UnclearError if there is none, or several.
 
     `index` chooses one element of an array. With `any_variant`, variants with the same meaning count as one point.
+    The error also mentions `groups` that could be named instead.
     """
     if not text.strip():
         raise UnclearError("no point is named", "give its code, name or address")
@@ -65,7 +68,8 @@ def choose_point(device: Device, text: str, *, index: int | None = None, any_var
         )
     points = present(device, {match.point.item: match.point for match in matches}.values())
     if not points:
-        raise UnclearError(f"{device.id} has no point `{shortened(text)}`", advice(device, text))
+        what, near = "point or group" if groups else "point", get_close_matches(text, groups, 1)
+        raise UnclearError(f"{device.id} has no {what} `{shortened(text)}`", did_you_mean(near) or advice(device, text))
     if len(points) == 1 or (any_variant and all(same_meaning(point, points[0]) for point in points)):
         return points[0]
     raise _several(text, points, matches)

@@ -157,17 +157,12 @@ def may_be_read(model: Device, point: Point) -> bool:
 
 def _point(model: Device, name: str, groups: set[str]) -> str:
     """Return the name in code of a readable point. Raises UnclearError, also for a misspelt group."""
-    from difflib import get_close_matches
-
     matches = find(model, name)
     if not matches and "=" in name:
         raise UnclearError(f"`{shortened(name)}` is no point", "`fieldscribe write` writes values")
     if not matches and len(name.split()) > 1:
         raise UnclearError(f"`{shortened(name)}` is no point", "give each point as an argument, without quotes")
-    near = [] if matches else get_close_matches(name, groups, 1)
-    if near:
-        raise UnclearError(f"{model.id} has no point or group `{shortened(name)}`", f"did you mean `{near[0]}`?")
-    point = choose_point(model, name)
+    point = choose_point(model, name, groups=groups)
     if not point.readable:
         raise UnclearError(f"`{shortened(name)}` is only written: {model.id} does not tell what it holds")
     return point.item

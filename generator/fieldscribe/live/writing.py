@@ -104,11 +104,19 @@ class Planner:
         Raises UnclearError, RefusedError, FieldscribeError.
         """
         writes = [self._of_word(word) for word in words]
+        self._require_once(writes)
         self._require_partners([self._points[write.item] for write in writes if write.item in self._points])
         if self._keep:
             commands = {self._points[write.item].keeps for write in writes if write.item in self._points}
             writes += [self._command(name) for name in self._commands if name in commands]
         return writes
+
+    def _require_once(self, writes: list[Write]) -> None:
+        """Raise UnclearError if a point is given twice."""
+        items = [write.item for write in writes if write.item in self._points]
+        if twice := next((item for item in items if items.count(item) > 1), None):
+            message = f"{label(self._points[twice])} is given twice: nothing was written"
+            raise UnclearError(message, "give one value, or write twice")
 
     def _require_partners(self, points: list[Point]) -> None:
         """Raise UnclearError if a point is missing that must be written together with another one."""

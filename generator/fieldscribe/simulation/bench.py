@@ -152,6 +152,8 @@ class Bench:
             raise _wrong(
                 settings, "devices", f"two devices on the line have the unit {twice}", "give each another unit"
             )
+        if settings.get("speed") and on == "tcp":
+            raise _wrong(settings, "speed", "a TCP line has no speed", "leave it out, or answer at a serial port")
         core, speed = part.core_of(devices, framing), settings.get("speed", 0)
         core.character = _BITS / speed if speed > 0 and on == "serial" else 0.0
         line = Line(core, self.clock, name=at or devices[0].device.id, seed=self._seed)
