@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Set as AbstractSet
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,7 @@ from fieldscribe.language.load import load
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.shape import check_shape
 from fieldscribe.language.source import read_source
+from fieldscribe.language.units import shipped_unit
 from fieldscribe.model import Device, Flag, Point
 from fieldscribe.resolve.values import FactError, formula_finding, number
 from fieldscribe.simulation.behaviour_rules import TIME, Amount, Quantity, Ref, Rule, Rules, Step, Test
@@ -62,26 +64,37 @@ class _Reader:
         by_code = grouped((point.code, point) for point in device.points if point.code is not None)
         self.by_code = {code: points for code, points in by_code.items() if code not in self.by_name}
         self.plant: dict[str, Quantity] = {}
+        self.wrong: AbstractSet[str] = frozenset()
+        """Quantities with a finding: what uses them has no further one."""
 
     def rules(self) -> Rules:
         """Return the rules of the file."""
         if self.node["behaviour"] != self.device.id:
             message = f"this is the behaviour of `{self.node['behaviour']}`, next to the description of another device"
             self.report.error("bad-behaviour", message, self.node.span("behaviour"), f"write `{self.device.id}`")
-        self.plant = {name: self._quantity(name, given) for name, given in self.node.get("plant", {}).items()}
+        stated = {name: self._quantity(name, given) for name, given in self.node.get("plant", {}).items()}
+        self.plant = {name: quantity for name, quantity in stated.items() if quantity is not None}
+        self.wrong = stated.keys() - self.plant
         start = dict(self._start())
         return Rules(self.plant, start, tuple(self._rules()))
 
-    def _quantity(self, name: str, given: Any) -> Quantity:
+    def _quantity(self, name: str, given: Any) -> Quantity | None:
+        """Return a quantity; None after a finding."""
         plant: Map = self.node["plant"]
         named = self.by_name.get(name, self.by_code.get(name, []))
         if name == TIME or any(map(_has_number, named)):
             message = f"`{name}` is the name of {'the time' if name == TIME else 'a point'}"
             self.report.error("duplicate-name", message, plant.key_span(name), "give the quantity another name")
+            return None
         facts: Mapping[str, Any] = given if isinstance(given, Map) else {"start": given}
+        symbol, declared = facts.get("unit", ""), {point.unit.symbol for point in self.device.points}
+        if any(shipped_unit(part) is None and part not in declared for part in _units_of(symbol)):
+            hint = "write a unit that `fieldscribe units` lists, or that a point has"
+            self._unknown("unit", symbol, given.span("unit"), declared, hint)
+            return None
         title = facts.get("title", name.replace("_", " "))
         titles = {"en": title} if isinstance(title, str) else dict(title)
-        return Quantity(name, Fraction(facts.get("start", 0)), facts.get("unit", ""), titles)
+        return Quantity(name, Fraction(facts.get("start", 0)), symbol, titles)
 
     def _start(self) -> Iterator[tuple[str, Fraction]]:
         """Yield the start values of points."""
@@ -222,6 +235,8 @@ class _Reader:
         """Return the reference of a name, with its flag if it has one. Raises FactError."""
         names = [name, *(point.name for point in self.by_code.get(name, ()))]
         name = next((each for each in names if each in self.plant), name)
+        if name in self.wrong:
+            raise FactError
         if name in self.plant or name == TIME:
             if part or raw:
                 raise FactError("unknown-point", f"`{name}` is a number and has no part", span, "leave it out")
