@@ -63,7 +63,8 @@ class Steps:
         if self.scope.report.count > before:
             return None
         used = {word.argument for step in steps for word in step.words}
-        if unused := next((name for name in self.arguments if name not in used), None):
+        unused = next((name for name in self.arguments if name not in used), None)
+        if unused is not None and len(steps) == len(node["steps"]):  # a step that is left out might use it
             self._report(f"no step uses the argument `{unused}`", stated.key_span(unused), "use it, or leave it out")
         name = str(node["name"])
         return SteppedCommand(
@@ -163,6 +164,8 @@ class Steps:
     def _by_points(self, node: Map, action: str) -> tuple[str, str | None, int, tuple[Word, ...]]:
         """Return the space, the base, the first address and the words of the points of a step. Raises FactError."""
         values: Map = node[action]
+        if values.broken:
+            raise FactError  # it has a finding already
         placed: dict[int, Word] = {}
         self._said = []
         spaces: set[tuple[str, str | None]] = set()
