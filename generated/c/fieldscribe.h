@@ -1720,7 +1720,7 @@ FIELDSCRIBE_STATUS fieldscribe_keep_real(fieldscribe_status status, fieldscribe_
     return status;
 }
 
-/* The nearest integer, halves away from zero, of a number that rounds to low..high or nearly (limits below 2^31 - 1). */
+/* The nearest integer, halves away from zero, of what rounds to low..high, or nearly (limits below 2^31 - 1). */
 FIELDSCRIBE_STATUS fieldscribe_round(fieldscribe_real number, int32_t low, int32_t high, int32_t *whole)
 {
     fieldscribe_real rest;

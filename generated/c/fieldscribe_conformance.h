@@ -452,6 +452,10 @@ FIELDSCRIBE_ONCE void fieldscribe_is_status(fieldscribe_vector *v, int status)
     fieldscribe_is_text(v, "status", one->name);
 }
 
+/* The name of a status that no vector has. */
+#define FIELDSCRIBE_NAMES_STATUS(family, FAMILY, name, status)                                   \
+    fieldscribe_agree(v, fieldscribe_spells(name, fieldscribe_##family##_status_name(FIELDSCRIBE_##FAMILY##_##status)));
+
 /* A family's statuses begin with those of conversions, and have their names. */
 #define FIELDSCRIBE_NAMES_STATUSES(type, name_of)                                                \
     {                                                                                            \
@@ -1152,17 +1156,30 @@ static inline void fieldscribe_fills_apart(
         }                                                                                        \
     }
 
-/* The raw number of a count is none where a step to it takes more than 64 bits. */
+/* A count has no raw number, and a raw number no count, where a step to it takes more than 64 bits. */
 static inline void fieldscribe_refuses_long_counts(fieldscribe_vector *v)
 {
     static const fieldscribe_rule rules[] = {
         {FIELDSCRIBE_OK, 0, INT64_MAX, 1, 1, 2}, {FIELDSCRIBE_OK, 0, INT64_MAX, 1, 1, 1},
         {FIELDSCRIBE_OK, 0, 2, 1, 1, 1}, {FIELDSCRIBE_OK, 0, 1, 1, INT64_MAX, 1},
         {FIELDSCRIBE_OK, 0, 1, 1, INT64_MAX / 2, 1}};
+    static const fieldscribe_rule decoded[] = {
+        {FIELDSCRIBE_OK, 0, 1, 1, 0, INT64_MAX}, {FIELDSCRIBE_OK, 0, 1, 1, -INT64_MAX, 1},
+        {FIELDSCRIBE_OK, 0, 1, INT64_MAX / 2, 0, 1}, {FIELDSCRIBE_OK, 0, INT64_MAX, 1, 0, 2},
+        {FIELDSCRIBE_OK, 0, 1, INT64_MAX / 4, 0, 1}};
+    int64_t count = 0;
     size_t at;
     for (at = 0U; at < sizeof rules / sizeof rules[0]; ++at) {
         fieldscribe_agree(v, fieldscribe_ruled_count(rules[at], INT64_MAX / 2, 1, INT64_MIN, INT64_MAX).status ==
                 FIELDSCRIBE_OUT_OF_RANGE);
+    }
+    for (at = 0U; at < sizeof decoded / sizeof decoded[0]; ++at) {
+        fieldscribe_agree(v, fieldscribe_decode_count(decoded[at], INT64_MAX / 2, 4, &count) == FIELDSCRIBE_OVERFLOW &&
+                count == 0);
+    }
+    for (at = 2U; at < sizeof decoded / sizeof decoded[0]; at += 2U) {
+        fieldscribe_agree(v, fieldscribe_decode_ratio(decoded[at], INT64_MAX / 2, 4, 0, &count) ==
+                FIELDSCRIBE_OVERFLOW && count == 0);
     }
 #if !defined(FIELDSCRIBE_NO_FLOAT) && !defined(FIELDSCRIBE_FLOAT32)
     fieldscribe_agree(v, fieldscribe_rounded_wide(-9223372036854775808.0, INT64_MIN, 0).number == INT64_MIN &&

@@ -591,8 +591,8 @@ static void fieldscribe_run_limit(fieldscribe_vector *v)
 {
     const fieldscribe_can_profile *const profile = fieldscribe_tables_of(v)->profile;
     fieldscribe_holds_long_numbers(v);
-    fieldscribe_agree(v, fieldscribe_spells("buffer_too_small",
-        fieldscribe_can_status_name(FIELDSCRIBE_CAN_BUFFER_TOO_SMALL))); /* no vector has it */
+    FIELDSCRIBE_NAMES_STATUS(can, CAN, "buffer_too_small", BUFFER_TOO_SMALL)
+    FIELDSCRIBE_NAMES_STATUS(can, CAN, "wrong_address", WRONG_ADDRESS)
     FIELDSCRIBE_LIMIT("first_unit", profile->first_unit)
     FIELDSCRIBE_LIMIT("last_unit", profile->last_unit)
     FIELDSCRIBE_LIMIT("identifier_bits", profile->identifier_bits)

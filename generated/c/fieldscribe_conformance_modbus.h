@@ -1020,8 +1020,8 @@ static void fieldscribe_run_limit(fieldscribe_vector *v)
 #ifdef FIELDSCRIBE_MODBUS_IDENTIFY_H
     fieldscribe_identifies(v);
 #endif
-    fieldscribe_agree(v, fieldscribe_spells("buffer_too_small",
-        fieldscribe_modbus_status_name(FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL))); /* no vector has it */
+    FIELDSCRIBE_NAMES_STATUS(modbus, MODBUS, "buffer_too_small", BUFFER_TOO_SMALL)
+    FIELDSCRIBE_NAMES_STATUS(modbus, MODBUS, "noise", NOISE)
     FIELDSCRIBE_NAMES_STATUSES(fieldscribe_modbus_status, fieldscribe_modbus_status_name)
     FIELDSCRIBE_LIMIT("first_unit", profile->first_unit)
     FIELDSCRIBE_LIMIT("last_unit", profile->last_unit)

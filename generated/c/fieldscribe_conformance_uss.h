@@ -493,8 +493,8 @@ static void fieldscribe_run_limit(fieldscribe_vector *v)
 {
     const fieldscribe_uss_profile *const profile = fieldscribe_tables_of(v)->profile;
     fieldscribe_holds_long_numbers(v);
-    fieldscribe_agree(v, fieldscribe_spells("buffer_too_small",
-        fieldscribe_uss_status_name(FIELDSCRIBE_USS_BUFFER_TOO_SMALL))); /* no vector has it */
+    FIELDSCRIBE_NAMES_STATUS(uss, USS, "buffer_too_small", BUFFER_TOO_SMALL)
+    FIELDSCRIBE_NAMES_STATUS(uss, USS, "noise", NOISE)
     FIELDSCRIBE_NAMES_STATUSES(fieldscribe_uss_status, fieldscribe_uss_status_name)
     FIELDSCRIBE_LIMIT("first_unit", profile->first_unit)
     FIELDSCRIBE_LIMIT("last_unit", profile->last_unit)
