@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -195,10 +196,10 @@ FAULTS = {
     | {"check": "wrong_transaction", "unit": "wrong_unit", "function": "wrong_function", "doubled": "ok"},
     SERIAL: COMMON | OF_RTU,
     USS_LINE: COMMON | {"check": "wrong_check", "unit": "wrong_unit", "exception": "refused", "late 0.45": "timeout"},
-    CAN_LINE: {"silent": "timeout", "check": "timeout"},
+    CAN_LINE: {"silent": "timeout", "check": "timeout (wrong_check)"},
     LINES[9]: COMMON,
 }
-"""What is wrong once on a line, and the status of the request that it strikes."""
+"""What is wrong once on a line, and the status of the request that it strikes, with what is wrong with a CAN frame."""
 
 
 @pytest.mark.full(seconds=2)
@@ -225,5 +226,6 @@ def outcome(node: NodeDevice, point: str, expected: Any) -> str:
     try:
         assert node(point, "readRaw") == expected
     except NodeError as error:
-        return str(error.status)
+        frame = re.search(r" \(wrong_\w+\)", str(error))
+        return f"{error.status}{frame[0] if frame else ''}"
     return "ok"
