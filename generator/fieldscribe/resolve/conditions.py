@@ -55,7 +55,7 @@ def condition_of(facts: PointFacts, scales: Scales) -> Condition | None:
 
 def _clauses_of(facts: PointFacts, scales: Scales, asking: tuple[PointFacts, ...]) -> Clauses:
     """Return the clauses of a point's conditions; none after a finding. `asking` are the points that need them."""
-    parts = [_clauses(facts, scales, Written(text, facts.span(key)), asking) for text, key in facts.conditions]
+    parts = [_clauses(facts, scales, key, Written(text, facts.span(key)), asking) for text, key in facts.conditions]
     try:
         return all_of(parts)
     except TooManyClausesError as error:
@@ -63,12 +63,18 @@ def _clauses_of(facts: PointFacts, scales: Scales, asking: tuple[PointFacts, ...
         return ()
 
 
-def _clauses(facts: PointFacts, scales: Scales, written: Written, asking: tuple[PointFacts, ...]) -> Clauses:
-    """Return the clauses of a condition; none after a finding."""
+def _clauses(facts: PointFacts, scales: Scales, key: str, written: Written, asking: tuple[PointFacts, ...]) -> Clauses:
+    """Return the clauses of a condition under a key; none after a finding."""
     text, report = written.text, scales.symbols.scope.report
     try:
         stated = parse_condition(text)
+        if key == "select" and [len(clause) for clause in stated] != [1]:
+            raise FormulaError("a selection compares once", 0)
     except FormulaError as error:
+        if key == "select":
+            hint = "write the name of the point alone, and a number, a name of it or a formula: `select: {page: 3}`"
+            report.error("bad-formula", "this is not a point with what it must hold", written.span, hint)
+            return ()
         suggestion = suggest_condition(text)
         error.hint = f"write `{suggestion}`" if suggestion else error.hint
         formula_finding(error, written.span, report)
