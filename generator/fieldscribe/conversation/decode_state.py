@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import partial
+from functools import lru_cache, partial
 from typing import Any
 
 from fieldscribe.arithmetic.codec import setting_of
 from fieldscribe.conditions import absent
-from fieldscribe.conversation.point_items import Base, PointFormatter, PointItem, english_title
+from fieldscribe.conversation.point_items import MOST_SETTINGS, Base, PointFormatter, PointItem, english_title
 from fieldscribe.conversation.selection import moved, same_meaning
 from fieldscribe.families import family
 from fieldscribe.families.decoded_frame import AddressSpan
@@ -148,23 +148,22 @@ Step = tuple[PointFormatter | None, Read, Any]
 """A point and its number, or without a formatter what has no point: a place, as whoever makes the plan knows it."""
 
 
-@dataclass(slots=True)
 class Plan:
     """How the words at one place become items. `taught` are the points that are settings for others."""
 
-    taught: Sequence[tuple[Point, Read]]
-    steps: Sequence[Step]
-    _version: int = -1
-    _needs: bool = True
-    """False if nothing in it depends on settings."""
-    _in_force: Sequence[tuple[Callable[[int], PointItem] | None, Step]] = ()
+    def __init__(self, taught: Sequence[tuple[Point, Read]], steps: Sequence[Step]) -> None:
+        self.taught, self._steps = taught, steps
+        self._needs = list(dict.fromkeys(name for step in steps if step[0] for name in step[0].needs))
+        # typed: a special code equals the plain number, and is no quantity
+        self._under = lru_cache(MOST_SETTINGS, typed=True)(self._made_under)
 
     def in_force(self, state: DecodeState) -> Sequence[tuple[Callable[[int], PointItem] | None, Step]]:
         """Return the steps, each with the function that makes an item of the number under the present settings."""
-        if self._version != state.version and (self._needs or not self._in_force):
-            self._in_force = [(step[0].under(state.settings) if step[0] else None, step) for step in self.steps]
-            self._version, self._needs = state.version, any(step[0] and step[0].needs for step in self.steps)
-        return self._in_force
+        return self._under(*map(state.settings.get, self._needs))
+
+    def _made_under(self, *values: Any) -> Sequence[tuple[Callable[[int], PointItem] | None, Step]]:
+        settings = {name: value for name, value in zip(self._needs, values, strict=True) if value is not None}
+        return [(step[0].under(settings) if step[0] else None, step) for step in self._steps]
 
     def teach(self, state: DecodeState, words: Sequence[int]) -> None:
         """Let the state learn the settings in the words."""

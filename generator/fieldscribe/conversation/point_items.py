@@ -25,8 +25,8 @@ from fieldscribe.wording import label, title_text
 Base = tuple[str, int, int]
 """Space or telegram, address, and number of addresses of an item."""
 
-_MOST_SETTINGS = 16
-"""How many numbers of the points that an item needs are remembered, with the items under them."""
+MOST_SETTINGS = 16
+"""How many numbers of the points that items need are remembered, with the items under them."""
 _MOST_ITEMS, _FEW_BITS = 64, 8
 """How many items of one point are cached, for a stream may last for days; all of them if it has few bits."""
 
@@ -57,7 +57,7 @@ class PointFormatter:
         self.absent = absence(device, point) if written else ""
         self.meanings = Meanings(device, point)
         # typed: a special code equals the plain number, and is no quantity
-        self._under = lru_cache(_MOST_SETTINGS, typed=True)(self._made_under)
+        self._under = lru_cache(MOST_SETTINGS, typed=True)(self._made_under)
         self._always = self._made_under(*[None for _ in self.needs])
 
     def under(self, settings: Settings) -> Callable[[int], PointItem]:

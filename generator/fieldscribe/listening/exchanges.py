@@ -6,7 +6,7 @@ that hostile captures do not fill the memory; further rows are counted together.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from fieldscribe.families.frame_results import FrameResult, Item
 from fieldscribe.listening.chunks import Cut
@@ -134,6 +134,8 @@ _MOST_NAMES = 4
 OTHERS = "others"
 _REST = ("", None, "")
 """The row for everything else once a table is full."""
+_Counts = dict[tuple[str, str], list[Any]]
+"""The number and the text of each kind of item, by its unit and subject."""
 
 
 @dataclass(slots=True)
@@ -189,8 +191,8 @@ class Statistics:
     def __init__(self) -> None:
         self.exchanges = 0
         self._polls: dict[tuple[str, int | None, str], Poll] = {}
-        self._errors: dict[tuple[str, str], tuple[int, str]] = {}
-        self._findings: dict[tuple[str, str], tuple[int, str]] = {}
+        self._errors: _Counts = {}
+        self._findings: _Counts = {}
 
     @property
     def wrong(self) -> bool:
@@ -204,9 +206,9 @@ class Statistics:
         if exchange.faults or content.findings:
             unit = "" if content.unit is None else f"unit {content.unit}: "
             for fault in exchange.faults:
-                _count(self._errors, (unit, fault), fault)
+                _count(self._errors, (unit, fault))
             for key, text in content.findings.items():
-                _count(self._findings, (unit, key), finding_text(key, text))
+                _count(self._findings, (unit, key), text)
         asked = content.request or (None if exchange.faults else content.reply)
         if asked is not None and content.device is not None:
             place: tuple[str, int | None, str] = exchange.place, content.unit, asked.summary
@@ -255,13 +257,13 @@ def _what(exchange: Exchange) -> str:
     return ", ".join(named[:_MOST_NAMES]) + (f" and {more} more" if more > 0 else "") or exchange.content.summary
 
 
-def _count(table: dict[tuple[str, str], tuple[int, str]], key: tuple[str, str], text: str) -> None:
+def _count(table: _Counts, key: tuple[str, str], text: str = "") -> None:
     """Count an item in a table, which keeps the text of the first one of its kind."""
-    if key not in table and len(table) >= _MOST_ROWS:
-        key, text = ("", OTHERS), OTHERS
-    count, first = table.get(key, (0, f"{key[0]}{text}"))
-    table[key] = count + 1, first
+    if key not in table:
+        key, text = (key, text) if len(table) < _MOST_ROWS else (("", OTHERS), "")
+        table.setdefault(key, [0, f"{key[0]}{finding_text(key[1], text)}"])
+    table[key][0] += 1
 
 
-def _sorted(table: dict[tuple[str, str], tuple[int, str]]) -> list[tuple[int, str]]:
+def _sorted(table: _Counts) -> list[list[Any]]:
     return sorted(table.values(), key=lambda row: -row[0])

@@ -89,7 +89,8 @@ class Listener:
         if cut.damaged and cut.unit not in self._units:
             return [Exchange(cut.time, cut.place, Content(), (cut,), (NOISE,))]
         key: tuple[Hashable, ...] = cut.place, cut.exchange
-        requests, gone = self._requests(key), list[Exchange]()
+        requests = self._requests(key)
+        gone: list[Exchange] = []
         if cut.sent and key in self._open:  # the client gave up waiting
             gone = [self._unanswered(key)]
             requests.clear()
