@@ -249,13 +249,13 @@ def test_refusals_say_how_a_code_is_written(points: Any) -> None:
 
 
 MISUSE = """
-from typing import assert_type
+from typing import Literal, assert_type
 from fieldscribe_runtime import Special
 from kitchen_codes import KitchenCodes
 from kitchen_codes.points import Points
 from kitchen_sink.points import Points as Others
 
-assert_type(Points.voltage.decode(1), float | Special)
+assert_type(Points.voltage.decode(1), float | Special[Literal["transducer_fault", "reserved", "out_of_order"]])
 assert_type(Others.third.decode(1), float)
 wrong: float = Points.voltage.decode(1)  # E: assignment
 

@@ -54,11 +54,12 @@ def check(analysis: Analysis) -> None:
     family_part = analysis.scope.family.part("checks")
     read: Reader = _unread if family_part is None else family_part.read
     seen: dict[str, Seen] = {}
-    points = {resolved.point.item: resolved.point for resolved in analysis.resolved}
+    bases = {base.name: base for base in analysis.scope.bases.values()}
+    failed = {name for name, base in bases.items() if not base.formula}
+    points = {one.point.item: one.point for one in analysis.resolved if one.point.base not in failed}
     fixed = [point for point in points.values() if point.fixed is not None and point.generated]
     for located in analysis.located_frames:
         read_frame = read(analysis, located, seen)
-        bases = {base.name: base for base in analysis.scope.bases.values()}
         known = {name: base for name, base in bases.items() if located.given.keys() >= set(base.wanted)}
         read_frame.starts = {name: base.at(located.given) for name, base in known.items()}
         if read_frame.words is not None:

@@ -1,5 +1,6 @@
 """Resolves what addresses count from: `given` and `found` at the head, `base` and `block` at groups."""
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from math import prod
@@ -14,6 +15,7 @@ from fieldscribe.text import humanised, shortened
 _MOST_BASES = 65536
 """The most bases of a group: each of them is checked."""
 _LAST = 65535
+_WORD = re.compile(r"\w+")
 _NO_COUNTS = frozenset(("bits", "format", "indices", "record", "scale", "sets", "space", "variants", "cases"))
 """Keys that a row of a plain word does not have."""
 _USUAL_SPACE, _USUAL_END = "holding", 0xFFFF
@@ -138,7 +140,7 @@ def _counting_points(scope: Scope, group: Map) -> Iterator[tuple[str, int]]:
     for other in scope.groups:
         is_of_block = integer_in(other.get("block")) == integer_in(group["block"])
         if is_of_block and other.keys().isdisjoint(("base", "addressing")):
-            for row in other["points"]:
+            for row in other.get("points", ()):
                 at = integer_in(row.get("at"))
                 if at is not None and row.get("type", "u16") == "u16" and row.keys().isdisjoint(_NO_COUNTS):
                     yield str(row["name"]), at
@@ -147,8 +149,9 @@ def _counting_points(scope: Scope, group: Map) -> Iterator[tuple[str, int]]:
 def _by_formula(scope: Scope, group: Map, formula: str) -> Base:
     """Return the base that a formula gives; it is within 0..65535 for all given numbers. Raises FactError."""
     span, given = group.span("base"), scope.given
-    stated = scope.header.get("given")
-    if _is_stated(scope, "given") and (stated is None or stated.broken or len(given) < len(stated)):
+    stated: Map | None = scope.header.get("given")
+    lost = () if stated is None else {*stated, *stated.broken}.difference(given)
+    if "given" in scope.header.broken or not set(_WORD.findall(formula)).isdisjoint(lost):
         raise FactError  # a number has a finding
     unknown = f"given are: {', '.join(given)}" if given else "declare the number under `given`, at the head"
     offset, factors = formula_multiples(formula, given, span, unknown)

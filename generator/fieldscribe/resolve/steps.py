@@ -64,7 +64,8 @@ class Steps:
             return None
         used = {word.argument for step in steps for word in step.words}
         unused = next((name for name in self.arguments if name not in used), None)
-        if unused is not None and len(steps) == len(node["steps"]):  # a step that is left out might use it
+        is_whole = len(steps) == len(node["steps"]) and not node["steps"].broken
+        if unused is not None and is_whole:  # a step that is left out might use it
             self._report(f"no step uses the argument `{unused}`", stated.key_span(unused), "use it, or leave it out")
         name = str(node["name"])
         return SteppedCommand(
