@@ -456,14 +456,14 @@ FIELDSCRIBE_ONCE void fieldscribe_is_status(fieldscribe_vector *v, int status)
 #define FIELDSCRIBE_NAMES_STATUS(family, FAMILY, name, status)                                   \
     fieldscribe_agree(v, fieldscribe_spells(name, fieldscribe_##family##_status_name(FIELDSCRIBE_##FAMILY##_##status)));
 
-/* A family's statuses begin with those of conversions, and have their names. */
+/* A family's statuses begin with those of conversions, and have their names; 31 is the most that C++ lets them be. */
 #define FIELDSCRIBE_NAMES_STATUSES(type, name_of)                                                \
     {                                                                                            \
         const fieldscribe_status_name *one = v->suite->statuses;                                 \
         for (; one->name != NULL; ++one) {                                                       \
             fieldscribe_agree(v, fieldscribe_spells(one->name, name_of((type)one->status)));     \
         }                                                                                        \
-        fieldscribe_agree(v, fieldscribe_spells("unknown", name_of((type)99)));                  \
+        fieldscribe_agree(v, fieldscribe_spells("unknown", name_of((type)31)));                  \
     }
 
 /* Checks a status and, if it is ok, a number; otherwise nothing may have been stored. */
