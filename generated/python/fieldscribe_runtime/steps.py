@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
+from keyword import iskeyword
 from typing import TYPE_CHECKING, overload
 
 from .about import About
@@ -82,6 +83,7 @@ class SteppedCommand(Guided):
     ) -> None:
         self.requests = requests
         self.arguments = arguments or {}
+        self._spelled = {f"{name}_" if iskeyword(name) else name: name for name in self.arguments}
         self.run = run
         self.every = every
 
@@ -92,7 +94,7 @@ class SteppedCommand(Guided):
         return f"<{type(self).__name__} {self.name}: {len(self.requests)} steps>"
 
     def _guide(self) -> str:
-        call = f"{self.name}.send({', '.join([f'{name}=number' for name in self.arguments])})"
+        call = f"{self.name}.send({', '.join([f'{name}=number' for name in self._spelled])})"
         given = {"first": "sent before all else", "before write": "sent before each write of a point"}.get(self.run)
         every = "" if self.every is None else f", again every {self.every:g} s"
         steps = "".join([f"\n{number}. {step.says}" for number, step in enumerate(self.requests, 1)])
@@ -121,8 +123,9 @@ class SteppedCommand(Guided):
 
     def _checked(self, arguments: Mapping[str, int]) -> dict[str, int]:
         """Return the arguments as numbers; raises an error for one that is missing, unknown, or out of its range."""
+        arguments = {self._spelled.get(name, name): number for name, number in arguments.items()}
         if arguments.keys() != self.arguments.keys():
-            takes = ", ".join(self.arguments) or "no arguments"
+            takes = ", ".join(self._spelled) or "no arguments"
             raise RequestError("bad_arguments", f"{self.name} takes {takes}, not {', '.join(arguments) or 'none'}")
         numbers = {name: whole(number) for name, number in arguments.items()}
         for name, (low, high) in self.arguments.items():

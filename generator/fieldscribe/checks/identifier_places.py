@@ -38,10 +38,13 @@ Named = PointFacts | Thing
 
 
 def given_names(analysis: Analysis) -> Iterator[tuple[str, str, Named]]:
-    """Yield the names of groups, points and enums in the description: namespace, name and owner."""
+    """Yield the names of groups, given numbers, points and enums in the description: namespace, name and owner."""
     for group in analysis.scope.groups:
         name = str(group["group"])
         yield "the list of groups", name, Thing(f"the group `{name}`", group.span("group"))
+    for name in analysis.scope.given:
+        place = analysis.scope.header["given"].key_span(name)
+        yield "generated code", name, Thing(f"the given number `{name}`", place)
     for resolved in analysis.resolved:
         facts = resolved.facts
         yield "generated code", facts.item, facts

@@ -45,6 +45,10 @@ def read_bases(scope: Scope) -> None:
             while names.setdefault(name, base.formula) != base.formula:
                 name, number = f"{base.name}_{number}", number + 1
             scope.bases[id(group)] = replace(base, name=name)
+    used = {name for base in scope.bases.values() for name, _ in base.terms}
+    for name in [] if report.has_errors else [name for name in scope.given if name not in used]:
+        hint = "count with it in a `base`, or leave it out"
+        report.error("two-meanings", f"no group counts with `{name}`", header["given"].key_span(name), hint)
 
 
 def _given(scope: Scope, nodes: Map) -> Iterator[Given]:

@@ -28,6 +28,9 @@ def _made(package: Package, within: float = 0.0, **more: Any) -> Any:
             step("b", runtime.holding(7, function=6), (2,), when=((("model", "!=", ("a",)),), (("mode", "==", (0,)),))),
         ),
         "alive": runtime.SteppedCommand(step("alive", runtime.holding(8, function=6), (1,)), every=10.0),
+        "copy": runtime.SteppedCommand(
+            step("copy", runtime.holding(9, function=6), (of(0, 1, "from"),)), arguments={"from": (0, 5)}
+        ),
         **more,
     }
     kinds = devices(package, points, runtime.ModbusDevice, runtime.AsyncModbusDevice)
@@ -41,6 +44,10 @@ def check_requests(package: Package) -> None:
         device = kind(memory, 1, {"model": "a"})
         now(device.close.send(unit=32))
         assert (memory.since(), memory.words[40], memory.words[41]) == ([(16, 40, 2), (3, 3, 1)], 32, 65503)
+        for given in ({"from_": 3}, {"from": 3}):
+            now(device.copy.send(**given))
+            assert memory.since() == [(6, 9, 3)]
+        assert str(refusal(lambda device: now(device.copy.send()), device)) == "copy takes from_, not none"
         now(device.bits.send())
         assert memory.since() == [(3, 5, 1), (6, 5, 0x123A)]
         now(device.chosen.send())
