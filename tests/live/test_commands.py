@@ -220,6 +220,13 @@ def test_answers_as_json(on_line: Run) -> None:
     assert (scanned["asked"], [one["unit"] for one in scanned["answers"]]) == ([1, 3], [1])
 
 
+def test_identify_answers_in_json_beside_a_description_with_errors(on_line: Run, tmp_path: Path) -> None:
+    write(tmp_path / "wrong", described("- {name: a, at: b}\n"))
+    done = on_line("identify", "--descriptions", str(tmp_path), "--format", "json")
+    assert (json.loads(done.out)["fits"], done.code) == ({}, 1)
+    assert "wrong/device.yaml" in done.err
+
+
 @pytest.mark.parametrize(("answer", "ends"), [("y", (0, 45.0)), ("", (1, 50.0)), ("n", (1, 50.0))])
 def test_a_write_is_asked_for(
     answer: str, ends: tuple[int, float], drive: Simulated, on_line: Run, monkeypatch: pytest.MonkeyPatch
