@@ -96,7 +96,7 @@ def plain(value: Any) -> Any:
     if isinstance(value, (tuple, list)):
         return [plain(item) for item in value]
     if isinstance(value, Mapping):
-        return [(plain(key), plain(item)) for key, item in value.items()]
+        return [(plain(key), plain(item)) for key, item in value.items() if key != "__orig_class__"]  # for mypy
     if isinstance(value, type):
         return class_of(value) if issubclass(value, enum.Enum) else value.__name__
     if isinstance(value, (FunctionType, BuiltinFunctionType, MethodType, classmethod, partial)):
