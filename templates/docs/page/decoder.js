@@ -1,6 +1,6 @@
 /* The section that decodes pasted frames and logs: it reads line by line in slices, so that the page stays responsive. */
 
-/** A decoded frame with the line that it stood in. @typedef {Decoded & { text: string, time: number | null }} Heard */
+/** A decoded frame with the line that it stood in. @typedef {Decoded & { text: string, time: number | null }} DecodedLine */
 
 const MOST_LINES = 100_000;
 const SHOWN_AT_ONCE = 100;
@@ -21,7 +21,7 @@ function newDecoder(settings) {
 /** The pasted text and the settings, kept while the page is open. */
 const pastedBefore = { text: "", known: "", framing: "", pkw: "", pzd: "", onlyWrong: false };
 
-/** Yield the frames in pasted text, one after the other. @param {string} text @param {FrameDecoder} decoder @returns {Generator<Heard>} */
+/** Yield the frames in pasted text, one after the other. @param {string} text @param {FrameDecoder} decoder @returns {Generator<DecodedLine>} */
 function* decodedFrames(text, decoder) {
   /** @type {number | null} */
   let asked = null;
@@ -63,9 +63,9 @@ function pastedText({ id, data, remote }) {
   return `${id.toString(16).toUpperCase().padStart(id > 0x7ff ? 8 : 3, "0")}#${remote ? "R" : hexBytes(data).replaceAll(" ", "")}`;
 }
 
-/** Return true if a frame is damaged or contradicts the manual. @param {Heard} heard */
-function isWrong({ faults, findings, said, kind }) {
-  return kind === "exception" || faults.length + findings.length > 0 || said.some(({ finding }) => finding);
+/** Return true if a frame is damaged or contradicts the manual. @param {DecodedLine} frame */
+function isWrong({ faults, findings, items, kind }) {
+  return kind === "exception" || faults.length + findings.length > 0 || items.some(({ finding }) => finding);
 }
 
 /** Return numbers by name out of `P2009=0, P2000=50.5, PGNEXPO=3h`. @param {string} text @returns {Record<string, number>} */
@@ -81,8 +81,8 @@ function knownNumbers(text) {
 /** The decoder on the page. */
 class DecoderView {
   constructor() {
-    /** @type {Heard[]} */
-    this.heard = [];
+    /** @type {DecodedLine[]} */
+    this.decoded = [];
     this.shown = 0;
     this.run = 0;
     this.isCut = false;
@@ -90,7 +90,7 @@ class DecoderView {
     this.unread = 0;
     this.area = element("textarea", { rows: 8, spellcheck: false, placeholder: device.family === "can" ? "321#DD00051513880064" : "one frame a line, in hexadecimal" });
     this.status = element("p", { className: "status", role: "status" });
-    this.results = element("div", { className: "heard" });
+    this.results = element("div", { className: "decoded" });
     this.more = element("button", { type: "button", hidden: true }, "Show more");
     this.more.addEventListener("click", () => this.extend());
     this.area.addEventListener("input", () => { pastedBefore.text = this.area.value; void this.decode(); });
@@ -156,16 +156,16 @@ class DecoderView {
     const run = (this.run += 1);
     const number = (/** @type {string} */ text) => (text === "" ? undefined : Number(text));
     const { text, known, framing, pkw, pzd } = pastedBefore;
-    this.heard = [];
+    this.decoded = [];
     [this.wrong, this.unread] = [0, 0];
     this.isCut = text.trimEnd().split("\n", MOST_LINES + 1).length > MOST_LINES;
     this.show();
     let sliced = performance.now();
     const decoder = newDecoder({ known: knownNumbers(known), framing: framing || undefined, pkw: number(pkw), pzd: number(pzd) });
-    for (const heard of decodedFrames(text, decoder)) {
-      this.heard.push(heard);
-      if (heard.kind === "no frame") this.unread += 1;
-      if (isWrong(heard)) this.wrong += 1;
+    for (const frame of decodedFrames(text, decoder)) {
+      this.decoded.push(frame);
+      if (frame.kind === "no frame") this.unread += 1;
+      if (isWrong(frame)) this.wrong += 1;
       if (performance.now() - sliced < SLICE_TIME) continue;
       this.tell(true);
       if (this.shown < SHOWN_AT_ONCE) this.extend();
@@ -180,8 +180,8 @@ class DecoderView {
   /** Say how many frames there are. @param {boolean} isGoing */
   tell(isGoing) {
     const { wrong, unread } = this;
-    const count = countedText(this.heard.length - unread, "frame");
-    this.status.textContent = this.heard.length ? [`${count}${isGoing ? " so far" : ""}`, wrong ? `${wrong} with something wrong or refused` : "nothing wrong", unread ? `${countedText(unread, "line")} without a frame` : "", this.isCut ? `only the first ${MOST_LINES} lines are read` : "", this.area.readOnly ? "the field shows the beginning alone" : ""].filter(Boolean).join(", ") : "";
+    const count = countedText(this.decoded.length - unread, "frame");
+    this.status.textContent = this.decoded.length ? [`${count}${isGoing ? " so far" : ""}`, wrong ? `${wrong} with something wrong or refused` : "nothing wrong", unread ? `${countedText(unread, "line")} without a frame` : "", this.isCut ? `only the first ${MOST_LINES} lines are read` : "", this.area.readOnly ? "the field shows the beginning alone" : ""].filter(Boolean).join(", ") : "";
   }
 
   show() {
@@ -193,9 +193,9 @@ class DecoderView {
 
   /** Show the next frames. */
   extend() {
-    const rows = pastedBefore.onlyWrong ? this.heard.filter(isWrong) : this.heard;
+    const rows = pastedBefore.onlyWrong ? this.decoded.filter(isWrong) : this.decoded;
     const next = rows.slice(this.shown, this.shown + SHOWN_AT_ONCE);
-    this.results.append(...next.map(heardBox));
+    this.results.append(...next.map(frameBox));
     this.shown += next.length;
     this.more.hidden = this.shown >= rows.length;
   }
@@ -212,12 +212,12 @@ function neededCode(name) {
   return code ?? own;
 }
 
-/** Return a decoded frame as a box. @param {Heard} heard */
-function heardBox(heard) {
-  const { faults, findings, notes, checks, said, summary, time, text } = heard;
+/** Return a decoded frame as a box. @param {DecodedLine} frame */
+function frameBox(frame) {
+  const { faults, findings, notes, checks, items, summary, time, text } = frame;
   /** @type {any[]} */
   const rows = [["Frame", summary]];
-  for (const each of said) {
+  for (const each of items) {
     const point = each.point === undefined ? undefined : device.byName.get(each.point);
     rows.push(["Says", ...(point ? [element("a", { href: `#point=${encodeURIComponent(point.name)}` }, each.label ?? pointLabel(point))] : []), each.finding ? element("span", { className: "wrong" }, each.text) : each.text]);
     rows.push(...(each.bits ?? []));
@@ -227,7 +227,7 @@ function heardBox(heard) {
   for (const each of [...faults, ...findings]) rows.push(["Wrong", element("strong", { className: "wrong" }, each)]);
   for (const each of notes) rows.push(["Note", each]);
   const head = element("p", { className: "frame-text" }, time === null ? "" : element("span", { className: "soft" }, `${timeText(time)} `), element("code", {}, text));
-  return element("section", { className: isWrong(heard) ? "one wrong-one" : "one" }, head, factList(rows));
+  return element("section", { className: isWrong(frame) ? "one wrong-one" : "one" }, head, factList(rows));
 }
 
 /** Return `4.2 ms`, `1.25 s`. @param {number} seconds */

@@ -1,7 +1,7 @@
 /* Frames of each family in words: what a frame is, what it carries, and what is wrong with it by the manual. */
 
 /** A decoded frame; `faults` say what is damaged, `findings` what contradicts the manual.
- * @typedef {{ kind: string, unit: number | null, summary: string, said: Said[], checks: string, faults: string[], findings: string[],
+ * @typedef {{ kind: string, unit: number | null, summary: string, items: DecodedItem[], checks: string, faults: string[], findings: string[],
  *   notes: string[], exception?: number }} Decoded */
 
 const NO_ANSWER = {
@@ -60,7 +60,7 @@ class FrameDecoder {
 
 /** @param {Partial<Decoded>} facts @returns {Decoded} */
 function decodedFrame(facts) {
-  return { kind: "unreadable", unit: null, summary: "not readable", said: [], checks: "", faults: [], findings: [], notes: [], ...facts };
+  return { kind: "unreadable", unit: null, summary: "not readable", items: [], checks: "", faults: [], findings: [], notes: [], ...facts };
 }
 
 /** Return `017h`, `08h`. @param {number} number @param {number} digits */

@@ -78,10 +78,10 @@ class CanDecoder extends FrameDecoder {
     const slot = receiver.multiplexer < 0 ? "" : `multiplexer ${frame.data[receiver.multiplexer]}, `;
     if (!isTaken) return decodedFrame({ ...facts, summary: own, findings: slot ? [`the manual knows multiplexers 0 to ${receiver.slots.length - 1} only`] : [] });
     const summary = message.signals.length ? own : `${own}: ${slot}words ${positions[0]} to ${positions[positions.length - 1]} of ${telegram.name}`;
-    return decodedFrame({ ...facts, summary, said: this.pieces(unit, telegram.name, receiver, positions) });
+    return decodedFrame({ ...facts, summary, items: this.pieces(unit, telegram.name, receiver, positions) });
   }
 
-  /** @param {number} unit @param {string} name @param {any} receiver @param {number[]} positions @returns {Said[]} */
+  /** @param {number} unit @param {string} name @param {any} receiver @param {number[]} positions @returns {DecodedItem[]} */
   pieces(unit, name, receiver, positions) {
     const state = this.state(unit);
     const there = new Set(positions);
@@ -131,12 +131,12 @@ class CanDecoder extends FrameDecoder {
     const state = this.state(unit);
     if (!isRequest && raw !== null && !facts.faults?.length) state.words.set(address, raw);
     const spots = this.places.at("parameter", address);
-    const said = spots.length ? withoutRepeats(spots.map((spot) => this.word(spot, address, raw, state, isWrite && isRequest)))
+    const items = spots.length ? withoutRepeats(spots.map((spot) => this.word(spot, address, raw, state, isWrite && isRequest)))
       : [{ text: `${spanText(address, address)}: no point is described here${raw === null ? "" : ` (${shortAddress(raw)})`}` }];
-    return decodedFrame({ ...facts, findings, said, summary: `${own}: parameter ${spanText(address, address)}` });
+    return decodedFrame({ ...facts, findings, items, summary: `${own}: parameter ${spanText(address, address)}` });
   }
 
-  /** Decode one word of a parameter. @param {Spot} spot @param {number} address @param {number | null} word @param {UnitState} state @param {boolean} written @returns {Said} */
+  /** Decode one word of a parameter. @param {Spot} spot @param {number} address @param {number | null} word @param {UnitState} state @param {boolean} written @returns {DecodedItem} */
   word({ point, codec, addresses }, address, word, state, written) {
     if (word === null) return namedPoint(point, "", codec && !codec.decode ? "it is write only" : "");
     if (!codec) return namedPoint(point, `carries ${shortAddress(word)}; documented only`);
@@ -147,9 +147,9 @@ class CanDecoder extends FrameDecoder {
     if (missing) return namedPoint(point, `${here}; ${missing} more words to come`);
     const raw = codec.fromWords(words);
     if (!written) this.places.learn(state, codec, raw);
-    const said = pointValue(point, codec, raw, state, written);
+    const item = pointValue(point, codec, raw, state, written);
     const [mask, bits] = codec.facts.fixed ?? [0, 0];
-    if (written && codec.facts.bits && (word & mask) !== bits) said.finding = [said.finding, "the word breaks what is always written beside it"].filter(Boolean).join("; ");
-    return here ? { ...said, text: `${said.text}; here ${here}` } : said;
+    if (written && codec.facts.bits && (word & mask) !== bits) item.finding = [item.finding, "the word breaks what is always written beside it"].filter(Boolean).join("; ");
+    return here ? { ...item, text: `${item.text}; here ${here}` } : item;
   }
 }

@@ -134,7 +134,7 @@ class ModbusDecoder extends FrameDecoder {
     if (values) {
       this.open.delete("");
       const isRead = open.function <= 4;
-      return decodedFrame({ kind: "reply", summary: `reply${isRead ? "" : ", the device has taken the request"}, ${this.spanOf(open)}`, said: this.said(open, isRead ? values : open.values, true) });
+      return decodedFrame({ kind: "reply", summary: `reply${isRead ? "" : ", the device has taken the request"}, ${this.spanOf(open)}`, items: this.items(open, isRead ? values : open.values, true) });
     }
     const parsed = modbusRequestIn(unit, pdu);
     return typeof parsed === "string" ? this.unmatched(unwrapped, parsed, open, status) : this.request({ ...parsed, transaction: unwrapped.transaction });
@@ -170,7 +170,7 @@ class ModbusDecoder extends FrameDecoder {
     const isEcho = (code === 5 || code === 6 || code === 8) && unit !== broadcast;
     return decodedFrame({
       kind: "request", summary: `${isEcho ? "request, or the reply that repeats it" : "request"}, ${this.spanOf(request)}`, findings,
-      said: this.said(request, request.values.length ? request.values : undefined, false),
+      items: this.items(request, request.values.length ? request.values : undefined, false),
       notes: [...(unit === broadcast && !findings.length ? ["broadcast: no unit answers"] : []), ...this.offByOne(request)],
     });
   }
@@ -186,7 +186,7 @@ class ModbusDecoder extends FrameDecoder {
     if (!open) return { ...made, notes: ["which request it refuses is not in the frame"] };
     if (status !== "exception") return { ...made, faults: [`it does not answer the request before: ${noAnswer(status)}`] };
     this.open.delete("");
-    return { ...made, summary: `${summary}; refused was ${this.spanOf(open)}`, said: this.said(open, open.values.length ? open.values : undefined) };
+    return { ...made, summary: `${summary}; refused was ${this.spanOf(open)}`, items: this.items(open, open.values.length ? open.values : undefined) };
   }
 
   /** Decode as much as possible of a reply that does not fit the open request.
@@ -204,14 +204,14 @@ class ModbusDecoder extends FrameDecoder {
       const came = { ...open, count: Math.min(open.count, values.length) };
       const due = code <= 2 ? (open.count + 7) >> 3 : 2 * open.count;
       if (data.length !== due) faults.splice(0, 1, `it brings ${countedText(data.length, "byte")}, the request asks for ${due} (${countedText(open.count, "item")})`);
-      return decodedFrame({ kind: "reply", summary: `reply, ${this.spanOf(came)}`, faults, said: this.said(came, values.slice(0, came.count), true) });
+      return decodedFrame({ kind: "reply", summary: `reply, ${this.spanOf(came)}`, faults, items: this.items(came, values.slice(0, came.count), true) });
     }
     const { most } = functionOf(code);
     if (code >= 15 && pdu.length === 5 && most) {
       const [address, count] = generatedCode().wordsOfBytes(pdu.subarray(1));
       const confirmed = { unit, function: code, address, count, values: [] };
       const isPossible = count > 0 && count <= most;
-      return decodedFrame({ kind: "reply", summary: `reply, the device has taken the request, ${this.spanOf(confirmed)}`, faults, said: isPossible ? this.said(confirmed) : [] });
+      return decodedFrame({ kind: "reply", summary: `reply, the device has taken the request, ${this.spanOf(confirmed)}`, faults, items: isPossible ? this.items(confirmed) : [] });
     }
     const follow = `${countedText(pdu[1], "byte")} of data ${pdu[1] === 1 ? "follows" : "follow"}`;
     const isRead = code > 0 && code <= 4 && pdu.length > 1;
@@ -226,8 +226,8 @@ class ModbusDecoder extends FrameDecoder {
     return `${space} ${spanText(address, last)}, ${countedText(count, space === "coil" || space === "discrete" ? "bit" : "word")}`;
   }
 
-  /** Return the items that a request asks for or writes, or that its reply holds. @param {any} request @param {number[]} [words] @param {boolean} [isReply] @returns {Said[]} */
-  said({ unit, function: code, address, count }, words, isReply = false) {
+  /** Return the items that a request asks for or writes, or that its reply holds. @param {any} request @param {number[]} [words] @param {boolean} [isReply] @returns {DecodedItem[]} */
+  items({ unit, function: code, address, count }, words, isReply = false) {
     if (code === 8) return [{ text: `test data ${hexNumbers(words ?? [])}; the device sends it back unchanged` }];
     const written = code > 4;
     const { space } = functionOf(code);
@@ -235,8 +235,8 @@ class ModbusDecoder extends FrameDecoder {
     const state = this.state(unit);
     if (isReply && words) this.find(state, space, address, words);
     const places = this.placesOf(unit);
-    const step = written && words && !words.some((_, at) => places.at(space, address + at).length) ? stepSaid(space, address, words) : undefined;
-    return step ? [step] : [...spanSaid(places, state, span), ...commandsAt(span)];
+    const step = written && words && !words.some((_, at) => places.at(space, address + at).length) ? stepItem(space, address, words) : undefined;
+    return step ? [step] : [...spanItems(places, state, span), ...commandsAt(span)];
   }
 
   /** Return the places of points, at the blocks that the unit has shown so far. @param {number} unit @returns {Places} */
@@ -317,7 +317,7 @@ function noAnswer(status) {
 }
 
 /** Return the command at this address; of several, the one with this value.
- * @param {{ space: string, address: number, words?: number[], written: boolean, learned: boolean }} span @returns {Said[]} */
+ * @param {{ space: string, address: number, words?: number[], written: boolean, learned: boolean }} span @returns {DecodedItem[]} */
 function commandsAt({ space, address, words, written }) {
   const here = written ? device.commands.filter((command) => command[1] === space && command[2] === address) : [];
   if (!here.length) return [];
@@ -327,8 +327,8 @@ function commandsAt({ space, address, words, written }) {
 }
 
 /** Return the step of a command that writes these words, if there is one. @param {string} space @param {number} address
- * @param {number[]} words @returns {Said | undefined} */
-function stepSaid(space, address, words) {
+ * @param {number[]} words @returns {DecodedItem | undefined} */
+function stepItem(space, address, words) {
   for (const [place, given] of Object.values(generatedCode().Device.table.facts.commands ?? {}).entries()) {
     const { requests = [], arguments: ends } = /** @type {any} */ (given);
     for (const [number, step] of requests.entries()) {

@@ -58,7 +58,7 @@ class UssDecoder extends FrameDecoder {
     const words = wordsIn(data);
     const faults = data.length % 2 ? [`the part is made of words of two bytes, here are ${data.length} bytes`] : [];
     const direction = framing === "pzd response" ? "response" : "request";
-    let made = decodedFrame({ kind: direction === "response" ? "reply" : "request", summary: `${direction === "response" ? "reply" : "request"}, process data`, said: framing.startsWith("pzd") ? this.process(null, direction, words) : [] });
+    let made = decodedFrame({ kind: direction === "response" ? "reply" : "request", summary: `${direction === "response" ? "reply" : "request"}, process data`, items: framing.startsWith("pzd") ? this.process(null, direction, words) : [] });
     if (framing === "broadcast") made = this.broadcast(words);
     if (framing === "pkw") made = this.telegram(null, words, isReply, { pkw: words.length, pzd: 0, isSure: false });
     return { ...made, faults: [...faults, ...made.faults], summary: `USS: ${made.summary}` };
@@ -78,7 +78,7 @@ class UssDecoder extends FrameDecoder {
       const answers = isReply || open !== undefined;
       if (answers) this.open.delete(String(unit));
       else this.open.set(String(unit), { task: 0, pzd: data.length });
-      return decodedFrame({ kind: answers ? "reply" : "request", summary: `${answers ? "reply" : "request"}, process data`, faults, said: this.process(unit, answers ? "response" : "request", data) });
+      return decodedFrame({ kind: answers ? "reply" : "request", summary: `${answers ? "reply" : "request"}, process data`, faults, items: this.process(unit, answers ? "response" : "request", data) });
     }
     const page = [15, 12, 13, 14].reduce((bits, place, at) => bits | (((part[1] >> place) & 1) << at), 0);
     const named = { code: part[0] >> 12, parameter: (part[0] & 0x7ff) + 2000 * page, index: part[1] & 0xff, values: part.slice(2), data, link };
@@ -116,7 +116,7 @@ class UssDecoder extends FrameDecoder {
     const notes = device.bus.protocol.eeprom.includes(code) ? ["it writes to the EEPROM too, which wears the memory"] : [];
     return decodedFrame({
       kind: "request", summary: `request, ${codeText("functions", code, `task ${code}`)}${this.element(code, parameter, index)}`, findings, notes,
-      said: [...(code ? this.elementSaid(unit, part, width, true) : []), ...this.process(unit, "request", data)],
+      items: [...(code ? this.elementItems(unit, part, width, true) : []), ...this.process(unit, "request", data)],
     });
   }
 
@@ -132,7 +132,7 @@ class UssDecoder extends FrameDecoder {
     }
     const width = device.bus.protocol.responses[code] ?? 0;
     if (width === 2 && values.length < 2) made.faults.push("it has too few words for its response");
-    made.said = [...(code ? this.elementSaid(unit, part, width, false) : []), ...this.process(unit, "response", data)];
+    made.items = [...(code ? this.elementItems(unit, part, width, false) : []), ...this.process(unit, "response", data)];
     return made;
   }
 
@@ -143,8 +143,8 @@ class UssDecoder extends FrameDecoder {
     return `, parameter ${parameter}${isAlone ? "" : index === 255 ? ", all elements (index 255)" : `, index ${index}`}`;
   }
 
-  /** @param {number | null} unit @param {any} part @param {number} width @param {boolean} isRequest @returns {Said[]} */
-  elementSaid(unit, part, width, isRequest) {
+  /** @param {number | null} unit @param {any} part @param {number} width @param {boolean} isRequest @returns {DecodedItem[]} */
+  elementItems(unit, part, width, isRequest) {
     const { code, parameter, index, values } = part;
     const spots = this.places.at("parameter", parameter, ` ${index}`);
     const carried = `carries ${hexNumbers(values)}`;
@@ -165,7 +165,7 @@ class UssDecoder extends FrameDecoder {
     }));
   }
 
-  /** The points in process data. @param {number | null} unit @param {string} direction @param {number[]} words @returns {Said[]} */
+  /** The points in process data. @param {number | null} unit @param {string} direction @param {number[]} words @returns {DecodedItem[]} */
   process(unit, direction, words) {
     const names = device.telegrams.filter((telegram) => telegram[2] === direction).map((telegram) => telegram[0]);
     return words.flatMap((word, at) => {
@@ -174,8 +174,8 @@ class UssDecoder extends FrameDecoder {
       const starting = spots.filter(({ addresses, codec }) => Math.min(...addresses) === at && (!codec || at + codec.size <= words.length));
       return starting.map(({ point, codec }) => {
         if (!codec) return namedPoint(point, `carries ${shortAddress(word)}; documented only`);
-        const said = pointValue(point, codec, codec.fromWords(words.slice(at, at + codec.size)), this.state(unit), direction === "request" && Boolean(codec.encode) && word !== 0);
-        return { ...said, doubt: "" };
+        const item = pointValue(point, codec, codec.fromWords(words.slice(at, at + codec.size)), this.state(unit), direction === "request" && Boolean(codec.encode) && word !== 0);
+        return { ...item, doubt: "" };
       });
     });
   }
@@ -187,7 +187,7 @@ class UssDecoder extends FrameDecoder {
     const valid = Array.from({ length: 15 }, (_, at) => at + 1).filter((at) => (words[0] >> at) & 1);
     const listed = [valid.slice(0, -1).join(", "), valid[valid.length - 1]].filter(Boolean).join(" and ");
     const counting = valid.length ? `words ${listed} of process data count` : "no word of process data counts";
-    return { ...made, said: [{ text: `mask ${shortAddress(words[0])}: ${counting}` }, { text: `masks of bits ${hexNumbers(words.slice(1, 4))}` }, ...this.process(this.profile.broadcast, "request", words.slice(4))] };
+    return { ...made, items: [{ text: `mask ${shortAddress(words[0])}: ${counting}` }, { text: `masks of bits ${hexNumbers(words.slice(1, 4))}` }, ...this.process(this.profile.broadcast, "request", words.slice(4))] };
   }
 }
 

@@ -1,7 +1,7 @@
 /* The meaning of numbers in frames: points at their addresses, values, bits, special codes, and faults. */
 
 /** One item of a frame: a point or something else, its text, a contradiction to the manual, and bits by label.
- * @typedef {{ point?: string, name?: string, label?: string, raw?: any, value?: string, text: string, finding?: string, doubt?: string, bits?: [string, string][] }} Said */
+ * @typedef {{ point?: string, name?: string, label?: string, raw?: any, value?: string, text: string, finding?: string, doubt?: string, bits?: [string, string][] }} DecodedItem */
 
 /** The addresses at which frames read or write a point.
  * @typedef {{ point: any, codec: any, addresses: number[], reads: boolean, writes: boolean }} Spot */
@@ -99,13 +99,13 @@ function englishTitle(title) {
   return typeof title === "string" ? title : title[0];
 }
 
-/** Return a named point without a number. @param {any} point @param {string} [text] @param {string} [finding] @returns {Said} */
+/** Return a named point without a number. @param {any} point @param {string} [text] @param {string} [finding] @returns {DecodedItem} */
 function namedPoint(point, text = "", finding = "") {
   return { point: point.name, name: codecOf(point)?.name, finding, text: `: ${[text || englishTitle(point.title), finding].filter(Boolean).join("; ")}` };
 }
 
 /** Return a point with its raw number and, if it is written, why the device refuses it.
- * @param {any} point @param {any} codec @param {any} raw @param {UnitState} state @param {boolean} [written] @returns {Said} */
+ * @param {any} point @param {any} codec @param {any} raw @param {UnitState} state @param {boolean} [written] @returns {DecodedItem} */
 function pointValue(point, codec, raw, state, written = false) {
   const value = meaningOf(point, codec, raw, state.raws);
   const bits = point.shared.word === undefined ? [] : bitRows(point, codec, raw);
@@ -225,10 +225,10 @@ function spanText(low, high) {
 
 /** Return what consecutive addresses hold; neighbours without a point are one.
  * @param {Places} places @param {UnitState} state
- * @param {{ space: string, address: number, count: number, words?: number[], written?: boolean, learned?: boolean }} span @returns {Said[]} */
-function spanSaid(places, state, { space, address, count, words, written = false, learned = false }) {
-  /** @type {Said[]} */
-  const said = [];
+ * @param {{ space: string, address: number, count: number, words?: number[], written?: boolean, learned?: boolean }} span @returns {DecodedItem[]} */
+function spanItems(places, state, { space, address, count, words, written = false, learned = false }) {
+  /** @type {DecodedItem[]} */
+  const items = [];
   /** @type {number[]} */
   let unknown = [];
   const isInside = (/** @type {number} */ at) => at >= address && at < address + count;
@@ -245,7 +245,7 @@ function spanSaid(places, state, { space, address, count, words, written = false
     }
   }
   const flush = () => {
-    if (unknown.length) said.push(unknownSaid(places, space, unknown, words?.slice(unknown[0] - address, unknown[unknown.length - 1] + 1 - address)));
+    if (unknown.length) items.push(unknownItem(places, space, unknown, words?.slice(unknown[0] - address, unknown[unknown.length - 1] + 1 - address)));
     unknown = [];
   };
   for (let at = address; at < address + count; at += 1) {
@@ -253,14 +253,14 @@ function spanSaid(places, state, { space, address, count, words, written = false
     if (!spots.length) { unknown.push(at); continue; }
     flush();
     const here = spots.filter((spot) => Math.min(...spot.addresses.filter(isInside)) === at);
-    said.push(...withoutRepeats(here.map((spot) => spotSaid(spot, rawOf(spot), own, { written, words, address, isInside }))));
+    items.push(...withoutRepeats(here.map((spot) => spotItem(spot, rawOf(spot), own, { written, words, address, isInside }))));
   }
   flush();
-  return said;
+  return items;
 }
 
-/** @param {Spot} spot @param {any} raw @param {UnitState} state @param {any} span @returns {Said} */
-function spotSaid({ point, codec, addresses, reads, writes }, raw, state, { written, words, address, isInside }) {
+/** @param {Spot} spot @param {any} raw @param {UnitState} state @param {any} span @returns {DecodedItem} */
+function spotItem({ point, codec, addresses, reads, writes }, raw, state, { written, words, address, isInside }) {
   const inside = addresses.filter(isInside).sort((one, other) => one - other);
   if (raw !== undefined) return pointValue(point, codec, raw, state, written);
   if (codec && !(written ? writes : reads) && codec.encode && codec.decode) {
@@ -282,11 +282,11 @@ function partText(place, count) {
   return `${name} (${place + 1} of ${count}, the high part first)`;
 }
 
-/** Merge items that are the same for several variants; a doubt stays only if all variants have it. @param {Said[]} said @returns {Said[]} */
-function withoutRepeats(said) {
-  /** @type {Map<string, Said>} */
+/** Merge items that are the same for several variants; a doubt stays only if all variants have it. @param {DecodedItem[]} items @returns {DecodedItem[]} */
+function withoutRepeats(items) {
+  /** @type {Map<string, DecodedItem>} */
   const kept = new Map();
-  for (const each of said) {
+  for (const each of items) {
     const key = `${each.name ?? kept.size} ${each.text}`;
     const same = kept.get(key);
     kept.set(key, same ? { ...same, label: codeAndName(each), doubt: same.doubt && each.doubt } : each);
@@ -294,14 +294,14 @@ function withoutRepeats(said) {
   return [...kept.values()];
 }
 
-/** Return the label of an item that holds for all variants of a point. @param {Said} said */
+/** Return the label of an item that holds for all variants of a point. @param {DecodedItem} item */
 function codeAndName({ point = "", name = "" }) {
   const code = device.byName.get(point)?.code;
   return code ? `${code} ${name}` : name;
 }
 
-/** @param {Places} places @param {string} space @param {number[]} addresses @param {number[]} [words] @returns {Said} */
-function unknownSaid(places, space, addresses, words) {
+/** @param {Places} places @param {string} space @param {number[]} addresses @param {number[]} [words] @returns {DecodedItem} */
+function unknownItem(places, space, addresses, words) {
   const [low, high] = [addresses[0], addresses[addresses.length - 1]];
   const gap = (device.bus.gaps[space] ?? []).find((/** @type {number[]} */ [first, last]) => first <= high && low <= last);
   const finding = gap ? `the manual closes ${shortAddress(gap[0])} to ${shortAddress(gap[1])}` : "";

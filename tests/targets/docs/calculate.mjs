@@ -15,7 +15,7 @@ for (const [file, all] of Object.entries(JSON.parse(readFileSync(steps, "utf8"))
     const settled = () => new Promise((done) => setTimeout(done));
     for (const { point, anew, needs = {}, field, text, bits = [], clicks = [], then = {}, decode, known } of typed) {
       if (decode) {
-        found.push([...decodedFrames(decode, newDecoder({ known }))].flatMap((frame) => frame.said.map((said) => `${said.name}${said.text}`)));
+        found.push([...decodedFrames(decode, newDecoder({ known }))].flatMap((frame) => frame.items.map((item) => `${item.name}${item.text}`)));
         continue;
       }
       if (anew) { location.hash = ""; await settled(); }

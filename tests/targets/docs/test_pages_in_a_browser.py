@@ -228,7 +228,7 @@ def _conversation(device: str, vector: Vector) -> Iterator[Job]:
 
 def _wrong(job: Job, heard: list[dict[str, Any]]) -> list[str]:
     """Why the page is wrong about a job; empty if it is right."""
-    last, said = heard[-1], [each for frame in heard for each in frame["said"]]
+    last, said = heard[-1], [each for frame in heard for each in frame["items"]]
     is_sound = not (last["faults"] or last["findings"])
     is_alone = job.status in SOUND_ALONE and last["kind"] == "request"
     is_of_other_framing = heard[0]["summary"][:3] != last["summary"][:3]
@@ -259,7 +259,7 @@ def test_every_frame_of_the_vectors(device: str, heard: dict[str, Any]) -> None:
 
 def test_an_address_means_what_is_selected(heard: dict[str, Any]) -> None:
     """Of a write to the window: behind its page alone, and behind page and index."""
-    early, late = (frames[-1]["said"] for frames in heard["kitchen_sink"]["decoded"][: len(WINDOW)])
+    early, late = (frames[-1]["items"] for frames in heard["kitchen_sink"]["decoded"][: len(WINDOW)])
     assert [each["name"] for each in late] == ["input_delay_index_2"]
     assert {each["name"] for each in early} == {f"input_delay_index_{index}" for index in (1, 2, 3)}
 
@@ -269,7 +269,7 @@ def test_the_words_of_a_step_name_its_command(
     place: int, heard: dict[str, Any], capsys: pytest.CaptureFixture[str]
 ) -> None:
     frame, said = list(STEPS.items())[place]
-    assert said in heard["kitchen_sink"]["decoded"][len(WINDOW) + place][-1]["said"][0]["text"]
+    assert said in heard["kitchen_sink"]["decoded"][len(WINDOW) + place][-1]["items"][0]["text"]
     main(["decode", str(SINK), *_with_crc(frame)])
     assert said in capsys.readouterr().out
 

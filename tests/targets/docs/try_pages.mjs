@@ -41,7 +41,7 @@ for (const [file, { jobs, typed, spoil }] of Object.entries(JSON.parse(readFileS
       area.dispatchEvent(new Event("input"));
     }, text);
     await page.waitForFunction(() => !document.querySelector("#detail .status").textContent.includes("so far"), null, OFTEN);
-    shown.push(await page.evaluate(() => ({ status: document.querySelector("#detail .status").textContent, text: document.querySelector(".heard").innerText, strange: document.querySelectorAll(".heard img, .heard script").length })));
+    shown.push(await page.evaluate(() => ({ status: document.querySelector("#detail .status").textContent, text: document.querySelector(".decoded").innerText, strange: document.querySelectorAll(".decoded img, .decoded script").length })));
   }
   const long = await page.evaluate(async () => {
     const area = document.querySelector(".paste textarea");
