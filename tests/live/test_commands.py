@@ -196,11 +196,13 @@ def test_other_families(words: str, code: int, out: str, err: str, other: Run) -
         ("rtu:///dev/nothing_here", "could not open port"),
         ("bench", "`bench` is no line, and no name of one\n  hint: there is no fieldscribe.toml here"),
         ("/dev/ttyUSB0", "a line itself is rtu:///dev/ttyUSB0, or uss:///dev/ttyUSB0\n"),
+        ("can://slcan/dev/nothing_here", "a path has its own slash: can://slcan//dev/nothing_here\n"),
         ("192.168.0.20:502", "a line itself is tcp://192.168.0.20:502\n"),
     ],
 )
 def test_a_line_that_cannot_be_opened(line: str, message: str, run: Run, small: object) -> None:
-    done = run("read", "hitachi_l200", "A020", "--line", line)
+    device = ("woodward_mpu2s", "generator_frequency") if line.startswith("can:") else ("hitachi_l200", "A020")
+    done = run("read", *device, "--line", line)
     assert (done.code, done.out) == (2, "")
     assert message in done.err
 

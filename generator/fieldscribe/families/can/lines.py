@@ -45,7 +45,8 @@ def open_bus(line: LineAddress) -> can.BusABC:
         return can.Bus(channel, interface=interface, **settings)
     except (can.CanError, OSError, ValueError, ImportError, NotImplementedError) as error:
         wrong = line.wrong(f"python-can cannot open it: {error}")
-        raise UnclearError(wrong.message, can_package(interface, error) or wrong.hint) from error
+        hint = f"a path has its own slash: can://{interface}//{channel}" if channel.startswith("dev/") else wrong.hint
+        raise UnclearError(wrong.message, can_package(interface, error) or hint) from error
 
 
 def device_on(line: OpenLine, kind: type[Any], model: Device, unit: int, variants: dict[str, str]) -> Any:
