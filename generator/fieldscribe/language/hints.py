@@ -109,7 +109,7 @@ def key_hint(key: str, known: Collection[str], written: Iterable[Form], value: A
         return "merge keys are not part of YAML 1.2: write the keys out, or share them under `formats`"
     if "documents" in known and (key == "groups" or key in keys_of(GROUP)):
         return _GROUP
-    if "at" in known and "name" in known and key in keys_of(GROUP):
+    if "bits" in known and "name" in known and key in keys_of(GROUP):
         return f"write `{key}` at the group, above its `points`"
     if "group" in known and key in keys_of(DEVICE):
         return "this key belongs in the head of device.yaml, its first document"
