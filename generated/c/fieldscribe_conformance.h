@@ -1154,6 +1154,10 @@ static inline void fieldscribe_fills_apart(
             type##_decode(block, any, &other);                                                   \
             fieldscribe_fills_apart(v, &one, &other, filled, sizeof one);                        \
         }                                                                                        \
+        memset(&one, 0, sizeof one);                                                             \
+        memset(&other, 0, sizeof other);                                                         \
+        type##_decode((blocks), any, &one); /* there is no such block */                         \
+        fieldscribe_agree(v, memcmp(&one, &other, sizeof one) == 0);                             \
     }
 
 /* A count has no raw number, and a raw number no count, where a step to it takes more than 64 bits. */
