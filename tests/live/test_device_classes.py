@@ -101,7 +101,10 @@ def plain(value: Any) -> Any:
         return class_of(value) if issubclass(value, enum.Enum) else value.__name__
     if isinstance(value, (FunctionType, BuiltinFunctionType, MethodType, classmethod, partial)):
         return getattr(value, "__name__", "")
-    return type(value).__name__, plain(getattr(value, "__dict__", repr(value)))
+    members = getattr(value, "__dict__", None)
+    if members is not None:  # without `__orig_class__`, by which typing remembers the argument of a generic class
+        members = {name: member for name, member in members.items() if not name.startswith("__")}
+    return type(value).__name__, plain(repr(value) if members is None else members)
 
 
 def class_of(kind: type[enum.Enum]) -> Any:

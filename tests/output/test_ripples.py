@@ -64,9 +64,10 @@ COUNTS = {
     "vectors": r"(kind|left_out|group)\t",
     "c": r"#define \w+_GROUP_COUNT ",
     "python": r'    """All points of ',
+    "rust": r'        "\w+" => \w+\(vector\)',
     "typescript": r"import \{ ",
 }
-"""Lines that count points or list names: they may change when there is one more."""
+"""Lines that count points, list names or tables of vectors: they may change when there is one more point."""
 
 
 def lines_of(device: Device) -> Lines:

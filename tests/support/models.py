@@ -356,7 +356,7 @@ def sample_device(points: tuple[Point, ...] | None = None) -> Device:
 
 def enums_of(points: tuple[Point, ...]) -> tuple[Enum, ...]:
     """All enums that points use, each once."""
-    used = [enum for one in points for enum in (one.enum, one.digits and one.digits.enum) if enum]
+    used = [enum for one in points if (enum := one.named_numbers)]
     return tuple({enum.name: enum for enum in used}.values())
 
 

@@ -11,7 +11,7 @@ from typing import Any
 from fieldscribe.families import can, modbus, uss
 from fieldscribe.model import Code, Command, Device, Frame, Message, Telegram
 
-from support.second_reading_points import LONG, Facts, entries_of, enum_of, of_point, place_of
+from support.second_reading_points import LONG, Facts, entries_of, of_point, place_of
 
 Row = dict[str, Any]
 """A line of a reading: its kind, what tells it from the others of its kind, the line of the manual, the facts."""
@@ -25,7 +25,9 @@ def described(device: Device) -> Iterator[Row]:
     language = device.documents[0].language
     for point in device.points:
         yield _row("point", point.source.line, place_of(point), of_point(point, codes, language))
-    for enum in {one.name: one for one in map(enum_of, device.points) if one and len(one.entries) > LONG}.values():
+    for enum in {
+        one.name: one for point in device.points if (one := point.named_numbers) and len(one.entries) > LONG
+    }.values():
         yield _row("list", None, {"name": enum.name}, {"entries": entries_of(enum.entries, language)})
     for of in ("functions", "exceptions", "responses"):
         for code in device.bus.codes(of):

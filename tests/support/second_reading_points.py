@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from fieldscribe.model import Bound, Entry, Enum, Factor, Flag, Linear, Point, Special
+from fieldscribe.model import Bound, Entry, Factor, Flag, Linear, Point, Special
 from fieldscribe.wording import condition_text
 
 Facts = dict[str, Any]
@@ -55,7 +55,7 @@ def of_point(point: Point, codes: Mapping[str, str], language: str) -> Facts:
 
 
 def _names(point: Point, language: str) -> Facts:
-    enum = enum_of(point)
+    enum = point.named_numbers
     return {
         "enum": enum and (enum.name if len(enum.entries) > LONG else entries_of(enum.entries, language)),
         "open": enum is not None and not enum.closed,
@@ -81,10 +81,6 @@ def _around(point: Point) -> Facts:
         "reserved": point.reserved,
         "documented_only": not point.generated,
     }
-
-
-def enum_of(point: Point) -> Enum | None:
-    return point.digits.enum if point.digits else point.enum
 
 
 def entries_of(entries: Iterable[Entry], language: str) -> Facts:

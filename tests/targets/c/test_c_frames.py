@@ -13,7 +13,6 @@ from fieldscribe.targets import c
 from support import wrong_bytes
 from support.c_device import SANITIZING, STANDARDS, WARNINGS, driver, program, run_program, write_headers
 from support.described import made, shipped
-from support.models import changed
 from support.places import ROOT
 from support.toolchains import compiled, run, succeed, tool
 
@@ -215,10 +214,10 @@ RENAMED = program("renamed")
 
 def renamed(point: Point) -> Point:
     """The point with an old name, which its enum had too if it is called after the point."""
-    enum, was = point.enum, (f"old_{point.name}",)
-    if enum is None or enum.name != point.item:
-        return replace(point, was=was)
-    return changed(point, was=was, enum=replace(enum, was=was))
+    was = (f"old_{point.name}",)
+    if point.enum_names == (point.item,):
+        return replace(point, was=was, enum_names=(point.item, *was))
+    return replace(point, was=was)
 
 
 @pytest.mark.full(seconds=0.6)

@@ -199,7 +199,7 @@ def _jobs(device: str) -> Iterator[Job]:
             built[_key(vector, fields)] = vector["bytes"]
             if "id" not in vector:
                 yield Job([vector["bytes"].hex()], "asked", settings=_settings(vector))
-        elif kind.endswith("reply") and _key(vector, fields) in built and vector["bytes"]:
+        elif kind in ("reply", "uss_reply") and _key(vector, fields) in built and vector["bytes"]:
             frames = [built[_key(vector, fields)].hex(), vector["bytes"].hex()]
             code = (
                 vector.get("exception")
