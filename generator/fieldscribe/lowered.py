@@ -35,11 +35,13 @@ class TemplateKeys:
         apart = point.was or point.variant is not None or point.write_place is not None
         if apart or allowed.moves or not _is_shared(shape):
             return self._number(point.item)
-        references = point.place.references
+        references, enum = point.place.references, shape.named_numbers
+        is_named_after_point = enum is not None and (enum.name or point.enum_names[0]) == point.item
         return self._number(
             (
                 self._shapes.get(id(shape)) or self._of_shape(shape),
-                None if point.enum_names[:1] == (point.item,) else point.enum_names,
+                is_named_after_point,
+                point.enum_names[is_named_after_point:],
                 self._terms.get(id(point.terms)) or self._of_terms(point.terms),
                 -len(allowed.intervals) if _is_range(allowed) else id(allowed),
                 tuple([address - addresses[0] for address in addresses]) if len(addresses) > 1 else len(addresses),
