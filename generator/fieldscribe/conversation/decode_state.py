@@ -189,6 +189,8 @@ class DecodeState:
     """The points whose meaning needs unknown settings, by item, with their raw numbers."""
     version: int = 0
     """A number that grows with each change of the state on which later frames depend."""
+    since: dict[str, int] = field(default_factory=dict)
+    """The version since which each setting has its number, and each incomplete point its own."""
     changed: set[str] = field(default_factory=set)
     """The settings that have changed since the incomplete points were last tried."""
     blocks: FoundBlocks | None = None
@@ -221,7 +223,19 @@ class DecodeState:
             if before != setting or type(before) is not type(setting):
                 self.settings[name] = setting
                 self.changed.add(name)
-                self.version += 1
+                self.touch(name)
+
+    def touch(self, name: str) -> None:
+        """Note a change of a setting, or of an incomplete point."""
+        self.version += 1
+        self.since[name] = self.version
+
+    def keeps(self, items: Iterable[Item], version: int) -> bool:
+        """Return True if a frame with these items has the same ones, and changes nothing, as it did at a version."""
+        if self.blocks is not None or self.directory.has_selections:
+            return False
+        since = self.since
+        return all(since.get(name, 0) <= version for item in items for name in (item.point, *item.rests_on) if name)
 
     def forget(self, address: int) -> None:
         """Forget the numbers that depend on a parameter that was written."""
@@ -230,6 +244,7 @@ class DecodeState:
             for point in self.directory.derived(written):
                 if point.name not in self.given:
                     self.settings.pop(point.name, None)
+                    self.touch(point.name)
                 for at in point.addresses:
                     self.words.pop(at, None)
 
@@ -243,7 +258,8 @@ class DecodeState:
         if key not in self.formatters:
             neighbours = partial(self.directory.neighbours, point) if self.doubting else None
             made = PointFormatter(self.device, point, base, written=written, neighbours=neighbours)
-            made.stays = made.stays and not self.directory.teaches(point)
+            if self.directory.teaches(point):
+                made.rests_on += (point.name,)
             self.formatters[key] = made
         return self.formatters[key]
 

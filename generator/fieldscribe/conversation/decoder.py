@@ -106,12 +106,14 @@ class StreamDecoder:
         decoded = self._frame_decoder.decode(frame, requests, expecting=expecting)
         state = self._state_of_unit(decoded.unit if self._device.found is None else decoded.result.unit)
         requests.follow(decoded, expecting=expecting)
-        memo, version = None if isinstance(frame, decoded_frame.CutFrame) else decoded.memo, state.version
+        completes = state.changed and state.incomplete
+        memo = None if completes or isinstance(frame, decoded_frame.CutFrame) else decoded.memo
+        version = state.version
         if memo and memo[0] is state:
             kept: FrameResult = memo[2]
-            if memo[1] not in (version, None) and _stays(state, kept):
-                memo[1] = None
-            if memo[1] in (version, None):
+            if memo[1] != version and state.keeps(kept.items, memo[1]):
+                memo[1] = version
+            if memo[1] == version:
                 return kept
         for content in decoded.contents if state.blocks else ():
             if isinstance(content, decoded_frame.AddressSpan) and content.learned and not content.written:
@@ -123,8 +125,7 @@ class StreamDecoder:
         if framings or decoded.request or self._misprints or data is frame:
             notes += tuple(self._warnings(decoded, data, state.directory))
         result = decoded.result._replace(items=items, notes=notes, frame=frame)
-        is_settled = not state.incomplete or state.incomplete.keys().isdisjoint([item.point for item in items])
-        if memo is not None and framings is self._framings and is_settled:
+        if memo is not None and framings is self._framings:
             memo[:] = state, version, result
         return result
 
@@ -143,11 +144,6 @@ class StreamDecoder:
             yield misprint_text(misprint)
         if isinstance(data, decoded_frame.CutFrame):
             yield data.note
-
-
-def _stays(state: DecodeState, result: FrameResult) -> bool:
-    """Return True if a result neither needs nor brings numbers for rules."""
-    return state.blocks is None and not state.directory.has_selections and all(item.stays for item in result.items)
 
 
 def logged_frame(text: str) -> str | None:

@@ -51,7 +51,7 @@ class PointFormatter:
         self.needs = point.arguments if written or neighbours is not None else point.scale_arguments
         self.head, self.title = f"{label(point)} = ", english_title(point)
         self.name, self.raw_text, self.is_text = point.item, raw_form(point), point.text is not None
-        self.code, self.stays = point.code, not self.needs
+        self.code, self.rests_on = point.code, tuple(self.needs)
         self.sources: Callable[[tuple[str, ...]], str] = lambda _missing: ""
         """Returns where the numbers come that are missing."""
         self.absent = absence(device, point) if written else ""
@@ -82,7 +82,7 @@ class PointItem(Item):
     def __init__(self, formatter: PointFormatter, settings: Settings, meant: Meant, number: int) -> None:
         self._formatter, self._number, self._settings = formatter, number, settings
         self.space, self.address, self.count = formatter.base
-        self.point, self.code, self.stays = formatter.name, formatter.code, formatter.stays
+        self.point, self.code, self.rests_on = formatter.name, formatter.code, formatter.rests_on
         self.raw = None if formatter.is_text else number
         self.meaning, self.value, self.missing, self._hint, self.bit_texts = meant(number)
         self.carries = self.subject = self._remark = ""

@@ -79,18 +79,22 @@ def piece_items(state: DecodeState, piece: Piece) -> list[Item]:
             continue
         if raw is None:
             text = _incomplete_text(state, layout, formatter)
-            items.append(named_item(formatter.point, formatter.base, text))
+            items.append(named_item(formatter.point, formatter.base, text).but(rests_on=formatter.rests_on))
             continue
         item = make(raw)
-        if state.incomplete:
-            state.incomplete.pop(formatter.name, None)
         if item.missing:
             incomplete[formatter.name] = formatter, raw
+        elif formatter.name in state.incomplete:
+            del state.incomplete[formatter.name]
+            state.touch(formatter.name)
         items.append(item)
     if state.changed:
         items += _completed_items(state)
-    if incomplete:
-        state.incomplete.update(incomplete)
+    for name, number in incomplete.items():
+        if state.incomplete.get(name) != number:
+            state.incomplete.pop(name, None)  # those of the last frames come last
+            state.incomplete[name] = number
+            state.touch(name)
     return items
 
 

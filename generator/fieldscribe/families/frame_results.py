@@ -90,8 +90,8 @@ class Item:
     doubts: tuple[str, ...] = ()
     carries: str = ""
     subject: str = ""
-    stays: bool = True
-    """True if it says the same whatever other frames bring, and brings nothing that others need."""
+    rests_on: tuple[str, ...] = ()
+    """The points whose numbers, from this frame or others, change what it says, or which it tells others."""
 
     def but(self, **changes: Any) -> Item:
         """Return the same, except for these facts."""

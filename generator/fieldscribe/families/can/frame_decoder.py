@@ -56,8 +56,8 @@ class CanFrameDecoder:
         self._first = _getter({place for message in device.messages for place in places(message, "constant")[:1]})
         self._telling: dict[Hashable, Callable[[bytes], Hashable]] = {}
         self._heads: dict[Hashable, _Known | None] = {}
-        self._last: dict[Hashable, tuple[bytes, DecodedFrame]] = {}
-        """The last frame of each layout that depends on nothing else."""
+        self._last: dict[Hashable, tuple[Hashable, DecodedFrame]] = {}
+        """The last frame of each layout, with the words of other frames on which it depends."""
         self._telegrams = {telegram.message: telegram for telegram in reversed(device.telegrams)}
         self._messages = {message.name: message for message in device.messages}
         self._signalled = {
@@ -162,25 +162,29 @@ class CanFrameDecoder:
     def _cyclic(self, head: Head, result: FrameResult, frame: CanFrame) -> DecodedFrame:
         receiver, layouts, crossed = self._received(head.message.name, head.unit or 0)
         layout = layouts[head.slot]
-        kept = self._last.get(layout)
-        if kept and kept[0] == frame.data:
+        kept, numbers = self._last.get(layout), crossed.get(head.slot)
+        if kept and not numbers and kept[0] == frame.data:
             return kept[1]
         piece = Piece(layout, receiver.keep(head.slot, frame))
-        if head.slot in crossed:
-            return DecodedFrame(result, (piece,), head.unit)
-        return _keep(self._last, layout, (frame.data, DecodedFrame(result, (piece,), head.unit, memo=[])))[1]
+        told = (frame.data, *map(receiver.words, numbers)) if numbers else frame.data
+        if kept and kept[0] == told:
+            return kept[1]
+        return _keep(self._last, layout, (told, DecodedFrame(result, (piece,), head.unit, memo=[])))[1]
 
-    def _receive(self, name: str, unit: int) -> tuple[Receiver, list[Layout], set[int]]:
+    def _receive(self, name: str, unit: int) -> tuple[Receiver, list[Layout], dict[int, list[tuple[int, ...]]]]:
         """Return the receiver of a message of a unit, and the layout of the frames with each multiplexer.
 
-        The last are the multiplexers with a part of a number whose other part comes with another one.
+        The last are the places of numbers whose parts come with several multiplexers, whole and each, by multiplexer.
         """
         telegram, points = self._telegrams[name], self._device.points
         receiver = Receiver(telegram, self._messages[name], unit)
         layouts = [Layout(telegram, positions, receiver) for positions in receiver.positions]
-        places = [point.addresses for point in points if point.telegram == telegram.name]
-        slots = ({address // receiver.per_frame for address in addresses} for addresses in places)
-        return receiver, layouts, {slot for here in slots if len(here) > 1 for slot in here}
+        crossed: dict[int, list[tuple[int, ...]]] = {}
+        for addresses in [point.addresses for point in points if point.telegram == telegram.name]:
+            slots = {address // receiver.per_frame for address in addresses}
+            for slot in slots if len(slots) > 1 else ():
+                crossed.setdefault(slot, []).extend((addresses, *((address,) for address in addresses)))
+        return receiver, layouts, crossed
 
     def _signals(self, message: Message, frame: CanFrame) -> DecodedFrame:
         """Return the result for the signals of a message."""
