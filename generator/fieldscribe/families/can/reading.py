@@ -23,7 +23,6 @@ from fieldscribe.text import humanised, shortened
 _HOW = "write a number, unit, address, raw, multiplexer, telegram, or xor 0..5"
 _WIDEST = {"unit": 2, "address": 2, "raw": 2, "multiplexer": 1, "telegram": LENGTH}
 """The most bytes that each word of a layout covers."""
-_UNITS = 256
 _MOST_BITS = 29
 _TO_ALL = 0xF0
 """From this byte on, a parameter group of J1939 has no destination."""
@@ -155,17 +154,18 @@ def _group(scope: Scope, bus: Bus, node: Map) -> tuple[int, bool] | None:
 
 def _identifier(scope: Scope, bus: Bus, node: Map) -> tuple[int, bool] | None:
     """Return the identifier, and True if the unit is added to it; None if it cannot be read."""
-    span, text = node.span("can_id"), str(node["can_id"])
+    span, text, (lowest, highest) = node.span("can_id"), str(node["can_id"]), bus.units
+    units = (0, 1, *range(lowest, highest + 1))
     try:
         expression = parse_expression(text)
-        at = [evaluate(expression, {"unit": Fraction(unit)}) for unit in range(_UNITS)]
+        at = [evaluate(expression, {"unit": Fraction(unit)}) for unit in units]
     except FormulaError as error:
         if "is not known" in error.message:
             error.hint = "an identifier is a number, or a number + unit"
         formula_finding(error, span, scope.report)
         return None
     slope = at[1] - at[0]
-    if at[0].denominator != 1 or slope not in (0, 1) or at != [at[0] + unit * slope for unit in range(_UNITS)]:
+    if at[0].denominator != 1 or slope not in (0, 1) or at != [at[0] + unit * slope for unit in units]:
         hint = "write it as `33Fh`, or `320h + unit`"
         scope.report.error("bad-formula", f"`{text}` is no identifier", span, hint)
         return None
