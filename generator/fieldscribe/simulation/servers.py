@@ -126,7 +126,8 @@ async def serve_tcp(line: Line, host: str = LOOPBACK, port: int = 0) -> Server:
     try:
         listening = await asyncio.get_running_loop().create_server(lambda: _End(line, ends), host, port)
     except (OSError, OverflowError) as error:
-        number = error.errno if isinstance(error, OSError) and error.errno else 0
+        # newer versions of Python tell no number for an address that no socket could have
+        number = (error.errno or errno.EADDRNOTAVAIL) if isinstance(error, OSError) else 0
         taken = number == errno.EADDRINUSE
         hint = "give another port, or 0 for any free one" if taken else "give an address of this machine, and a port"
         reason = "it is taken" if taken else os.strerror(number) if number > 0 else str(error)

@@ -101,11 +101,12 @@ def header(
     for name, of_points in _points_by_group(device, points, scope, render).items():
         if of_points:
             texts.append(folded(render("c/group.h.j2", {"title": _title(name, scope)})))
-        for text in of_points:
-            whole, _, floating = text.partition(_FLOATS)
-            texts.append(whole)
-            floats.append(floating)
+        parts = [text.partition(_FLOATS) for text in of_points]
+        of_points.clear()  # all these texts twice are a tenth of the memory of a run
+        texts += [whole for whole, _, _ in parts]
+        floats += [floating for _, _, floating in parts]
     sections = {"points": "".join(texts), "floats": "".join(floats)}
+    texts.clear()
     return framed(render, "c/device.h.j2", {"device": context}, sections)
 
 
