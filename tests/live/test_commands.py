@@ -198,6 +198,7 @@ def test_other_families(words: str, code: int, out: str, err: str, other: Run) -
         ("/dev/ttyUSB0", "a line itself is rtu:///dev/ttyUSB0, or uss:///dev/ttyUSB0\n"),
         ("can://slcan/dev/nothing_here", "a path has its own slash: can://slcan//dev/nothing_here\n"),
         ("192.168.0.20:502", "a line itself is tcp://192.168.0.20:502\n"),
+        ("5020", "a line itself is tcp://HOST:PORT\n"),
     ],
 )
 def test_a_line_that_cannot_be_opened(line: str, message: str, run: Run, small: object) -> None:

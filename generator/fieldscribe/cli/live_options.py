@@ -104,7 +104,8 @@ def _named(text: str, project: Project) -> str:
     none = f"{NAME} here has no table `lines`" if Path(NAME).exists() else f"there is no {NAME} here"
     names = f"{NAME} has {', '.join(project.lines)}" if project.lines else none
     itself = f"rtu://{text}, or uss://{text}" if text.startswith("/") else "tcp://HOST:PORT"
-    itself = f"tcp://{text}" if text.rpartition(":")[2].isdecimal() else itself
+    host, _, port = text.rpartition(":")
+    itself = f"tcp://{text}" if host and port.isdecimal() else itself
     near = did_you_mean(get_close_matches(text, project.lines, 1)) or f"{names}; a line itself is {itself}"
     raise StopError(f"`{shortened(text)}` is no line, and no name of one", near)
 

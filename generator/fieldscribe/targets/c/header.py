@@ -102,7 +102,7 @@ def header(
         if of_points:
             texts.append(folded(render("c/group.h.j2", {"title": _title(name, scope)})))
         parts = [text.partition(_FLOATS) for text in of_points]
-        of_points.clear()  # all these texts twice are a tenth of the memory of a run
+        of_points.clear()  # kept twice, these texts would take a tenth of the memory of a run
         texts += [whole for whole, _, _ in parts]
         floats += [floating for _, _, floating in parts]
     sections = {"points": "".join(texts), "floats": "".join(floats)}
