@@ -2,6 +2,7 @@
 
 from fractions import Fraction
 
+from fieldscribe.language.formula.syntax import ZeroDivisorError
 from fieldscribe.language.nodes import Map
 from fieldscribe.resolve.addresses import RULE_KNOWS
 from fieldscribe.resolve.analysis import Analysis
@@ -47,5 +48,5 @@ def _check_rule(analysis: Analysis, group: Map) -> None:
     try:
         formula_value(group["addressing"], _KNOWN, group.span("addressing"), RULE_KNOWS)
     except FactError as error:
-        if "division by zero" not in error.args[1]:  # it was evaluated with 1 for every name
+        if not isinstance(error.__cause__, ZeroDivisorError):  # it was evaluated with 1 for every name
             error.report(analysis.report)

@@ -10,7 +10,7 @@ from fieldscribe.arithmetic.exact import pattern_of
 from fieldscribe.diagnostics import Report, Span
 from fieldscribe.language.formula.normal import MOST_BITS, evaluate, multiples
 from fieldscribe.language.formula.parser import parse_expression
-from fieldscribe.language.formula.syntax import FormulaError
+from fieldscribe.language.formula.syntax import FormulaError, UnknownNameError
 from fieldscribe.language.numbers import NumberError, parse_integer, parse_number
 from fieldscribe.language.suggestions import suggest_interval
 
@@ -124,7 +124,7 @@ def formula_multiples(text: str, names: Collection[str], span: Span, unknown: st
 
 def _unknown_or_wrong(error: FormulaError, span: Span, unknown: str) -> FactError:
     """Return the finding of a formula, with this hint if it names something unknown."""
-    if unknown and "is not known" in error.message:
+    if unknown and isinstance(error, UnknownNameError):
         error.hint = unknown
     return formula_fault(error, span)
 

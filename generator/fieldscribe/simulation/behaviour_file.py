@@ -12,7 +12,16 @@ from fieldscribe.diagnostics import Report, Span
 from fieldscribe.grouping import grouped
 from fieldscribe.language.formula import conditions
 from fieldscribe.language.formula.conditions import Move, parse_move
-from fieldscribe.language.formula.syntax import Binary, Expression, FormulaError, Name, Negate, Number, names
+from fieldscribe.language.formula.syntax import (
+    Binary,
+    Expression,
+    FormulaError,
+    Name,
+    Negate,
+    Number,
+    ZeroDivisorError,
+    names,
+)
 from fieldscribe.language.hints import nearest, quoted
 from fieldscribe.language.keys.places import BEHAVIOUR
 from fieldscribe.language.load import load
@@ -181,7 +190,7 @@ class _Reader:
     def _amount(self, written: conditions.Amount, span: Span) -> Amount:
         """Return an expression with its names resolved. Raises FactError or FormulaError."""
         if (column := _zero_divisor(written.expression)) is not None:
-            raise FormulaError("division by zero", written.column + column, "divide by another number")
+            raise ZeroDivisorError(written.column + column)
         refs = {}
         for name in names(written.expression):
             place = span.moved(written.column + name.column, len(name.name))

@@ -3,21 +3,17 @@
 import re
 from collections.abc import Collection, Iterable
 from dataclasses import replace
-from fractions import Fraction
 
 from fieldscribe.diagnostics import Span
 from fieldscribe.families.can import USUAL_BITS, CanBus, CanExample, identifier_bits
 from fieldscribe.families.can.frames import LENGTH
 from fieldscribe.families.can.signals import placed
-from fieldscribe.language.formula.normal import evaluate
-from fieldscribe.language.formula.parser import parse_expression
-from fieldscribe.language.formula.syntax import FormulaError
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import integer_in, parse_integer
 from fieldscribe.model import Bus, Code, Message, Point, Role
 from fieldscribe.resolve.bus import FamilyReader, Messages
 from fieldscribe.resolve.scope import Scope, source_of, titles
-from fieldscribe.resolve.values import formula_finding, integer
+from fieldscribe.resolve.values import FactError, formula_multiples, integer
 from fieldscribe.text import humanised, shortened
 
 _HOW = "write a number, unit, address, raw, multiplexer, telegram, or xor 0..5"
@@ -154,22 +150,20 @@ def _group(scope: Scope, bus: Bus, node: Map) -> tuple[int, bool] | None:
 
 def _identifier(scope: Scope, bus: Bus, node: Map) -> tuple[int, bool] | None:
     """Return the identifier, and True if the unit is added to it; None if it cannot be read."""
-    span, text, (lowest, highest) = node.span("can_id"), str(node["can_id"]), bus.units
-    units = (0, 1, *range(lowest, highest + 1))
+    span = node.span("can_id")
     try:
-        expression = parse_expression(text)
-        at = [evaluate(expression, {"unit": Fraction(unit)}) for unit in units]
-    except FormulaError as error:
-        if "is not known" in error.message:
-            error.hint = "an identifier is a number, or a number + unit"
-        formula_finding(error, span, scope.report)
+        first, factors = formula_multiples(
+            str(node["can_id"]), ("unit",), span, "an identifier is a number, or a number + unit"
+        )
+    except FactError as error:
+        error.report(scope.report)
         return None
-    slope = at[1] - at[0]
-    if at[0].denominator != 1 or slope not in (0, 1) or at != [at[0] + unit * slope for unit in units]:
-        hint = "write it as `33Fh`, or `320h + unit`"
-        scope.report.error("bad-formula", f"`{text}` is no identifier", span, hint)
+    adds, bits = factors.get("unit") == 1, _bits(bus, node)
+    if factors and not adds:
+        scope.report.error(
+            "bad-formula", f"`{node['can_id']}` is no identifier", span, "write it as `33Fh`, or `320h + unit`"
+        )
         return None
-    first, adds, bits = at[0].numerator, bool(slope), _bits(bus, node)
     low, high = sorted(first + unit * adds for unit in bus.units)
     known = scope.bus is not None and not {"identifier_bits", "units"} & {*scope.bus.broken}
     if known and not 0 <= low <= high < 1 << bits:

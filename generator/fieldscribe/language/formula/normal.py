@@ -17,6 +17,8 @@ from fieldscribe.language.formula.syntax import (
     Part,
     Power10,
     Scale,
+    UnknownNameError,
+    ZeroDivisorError,
 )
 from fieldscribe.language.numbers import MOST_EXPONENT
 from fieldscribe.model import Factor, Linear
@@ -106,7 +108,7 @@ def reciprocal(term: Term, column: int) -> Term:
     """Return one divided by a term. Raises FormulaError."""
     if term.constant:
         if term.offset == 0:
-            raise FormulaError("division by zero", column)
+            raise ZeroDivisorError(column)
         return number(1 / term.offset)
     if term.variable:
         raise FormulaError("not linear: the variable stands in a divisor", column, LINEAR_ONLY)
@@ -197,7 +199,7 @@ def evaluate(expression: Expression, values: Mapping[str, Fraction]) -> Fraction
         if key in values:
             return Affine(name, Fraction(0), values[key])
         known = ", ".join(values)
-        raise FormulaError(f"`{key}` is not known here", 0, f"known: {known}" if known else "write a number")
+        raise UnknownNameError(f"`{key}` is not known here", 0, f"known: {known}" if known else "write a number")
 
     return limit_rule(expression, resolve).ratio
 
@@ -208,7 +210,8 @@ def multiples(expression: Expression, known: Collection[str]) -> tuple[Fraction,
         case Name(name, part, column):
             if part != "value" or name not in known:
                 hint = f"known: {', '.join(known)}" if known else "write a number"
-                raise FormulaError(f"`{name if part == 'value' else f'{name}.raw'}` is not known here", column, hint)
+                key = name if part == "value" else f"{name}.raw"
+                raise UnknownNameError(f"`{key}` is not known here", column, hint)
             return Fraction(0), {name: Fraction(1)}
         case Negate(operand):
             return _times(multiples(operand, known), Fraction(-1))
@@ -333,8 +336,9 @@ def _power(power: Power10, variable: str, resolve: Resolve) -> Term:
 
 def _resolved(name: Name, resolve: Resolve) -> Affine:
     if name.name in VARIABLES:
-        raise FormulaError(f"`{name.name}` is not known here", name.column, "name a point")
+        raise UnknownNameError(f"`{name.name}` is not known here", name.column, "name a point")
     try:
         return resolve(name.name, name.part)
     except FormulaError as error:
-        raise FormulaError(error.message, name.column, error.hint) from None
+        error.column = name.column
+        raise

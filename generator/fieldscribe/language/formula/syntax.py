@@ -17,6 +17,17 @@ class FormulaError(ValueError):
         self.hint = hint
 
 
+class UnknownNameError(FormulaError):
+    """A formula has a name that is not known where it stands."""
+
+
+class ZeroDivisorError(FormulaError):
+    """A formula divides by the constant 0."""
+
+    def __init__(self, column: int) -> None:
+        super().__init__("division by zero", column, "divide by another number")
+
+
 Part = Literal["value", "raw"]
 """Which number of a point a name stands for."""
 
