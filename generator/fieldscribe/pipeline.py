@@ -160,7 +160,7 @@ def _checked(files: Files, report: Report) -> Analysis:
     from fieldscribe.checks import run_checks
     from fieldscribe.resolve.analysis import Analysis
     from fieldscribe.resolve.bases import read_bases
-    from fieldscribe.resolve.bus import bus_of, reader_of
+    from fieldscribe.resolve.bus import bus_of, reader_of, telegrams_of
     from fieldscribe.resolve.commands import commands_of, identifications_of
     from fieldscribe.resolve.errata import errata_of
     from fieldscribe.resolve.expand import expand
@@ -168,7 +168,6 @@ def _checked(files: Files, report: Report) -> Analysis:
     from fieldscribe.resolve.points import ResolvedPoint, resolve_points
     from fieldscribe.resolve.scope import open_scope
     from fieldscribe.resolve.symbols import symbols_of
-    from fieldscribe.resolve.telegrams import telegrams_of
 
     scope = open_scope(files, report)
     read_bases(scope)

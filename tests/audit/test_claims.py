@@ -7,8 +7,7 @@ from fieldscribe.audit.claims_of_device import claims_of_codes, claims_of_entry,
 from fieldscribe.audit.numbers import Notation
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.load import load
-from fieldscribe.language.nodes import Map
-from fieldscribe.language.source import SourceFile
+from fieldscribe.language.nodes import Map, SourceFile
 
 
 def written(text: str) -> Map:

@@ -13,11 +13,10 @@ import pytest
 from fieldscribe.authoring import formatting
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
-from fieldscribe.language.canonical import canonical
+from fieldscribe.language.canonical import canonical, comments, pieces, unbroken
 from fieldscribe.language.key_tables import schema_text
 from fieldscribe.language.load import load
-from fieldscribe.language.pieces import comments, pieces, unbroken
-from fieldscribe.language.source import SourceFile
+from fieldscribe.language.nodes import SourceFile
 from support.described import DEVICES, described
 from support.places import ROOT, TESTS
 

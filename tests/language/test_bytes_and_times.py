@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.load import load
-from fieldscribe.language.source import SourceFile
+from fieldscribe.language.nodes import SourceFile
 from fieldscribe.model import Device
 from support.described import DEVICES, compile_in, described, loaded
 from support.descriptions_as_values import as_texts, rewrite

@@ -14,8 +14,7 @@ import yaml
 from fieldscribe import pipeline
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.load import load, scalar
-from fieldscribe.language.nodes import Map, Seq
-from fieldscribe.language.source import SourceFile, decoded
+from fieldscribe.language.nodes import Map, Seq, SourceFile, decoded
 from support.places import ROOT, TESTS
 
 FILES = [*sorted((ROOT / "descriptions").glob("*/*.yaml")), *sorted((TESTS / "devices").rglob("*.yaml"))]
@@ -169,6 +168,6 @@ def test_yaml_is_loaded_only_where_files_are_read(module: str, loaded: bool) -> 
 
 @pytest.mark.full(seconds=1)
 def test_a_text_without_findings_is_read_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("fieldscribe.language.source.find_positions", lambda _: pytest.fail("read again for places"))
+    monkeypatch.setattr("fieldscribe.language.nodes.find_positions", lambda _: pytest.fail("read again for places"))
     for device_file in (ROOT / "descriptions").glob("*/device.yaml"):
         assert pipeline.load_analysis(device_file, Report()) is not None

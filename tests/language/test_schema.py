@@ -18,10 +18,8 @@ from fieldscribe.language.key_tables import json_schema, keys_markdown, schema_t
 from fieldscribe.language.keys import TABLE, keys_of
 from fieldscribe.language.keys.places import BEHAVIOUR, DEVICE, PART
 from fieldscribe.language.load import load
-from fieldscribe.language.nodes import Map, Seq, Value
-from fieldscribe.language.shape import check_shape
-from fieldscribe.language.source import SourceFile, read_source
-from fieldscribe.language.value_checks import compiled_pattern
+from fieldscribe.language.nodes import Map, Seq, SourceFile, Value, read_source
+from fieldscribe.language.shape import check_shape, compiled_pattern
 from jsonschema import Draft7Validator, validators
 from support.descriptions_as_values import WHOLES, as_yaml, changed, nodes
 from support.places import ROOT

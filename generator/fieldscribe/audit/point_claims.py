@@ -15,8 +15,8 @@ from fieldscribe.language.keys import keys_of
 from fieldscribe.language.keys.places import PRINTED
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Flag, Point
-from fieldscribe.resolve.bit_numbers import WORD_BITS, bit_numbers
 from fieldscribe.resolve.point_facts import PointFacts
+from fieldscribe.resolve.values import WORD_BITS
 
 
 def claims_of_flags(
@@ -34,7 +34,7 @@ class _FlagClaims:
         self.maker, self.point, self.notation, self.flag = maker, point, notation, flag
         above = point.bits[1] if point.bits else 0
         self.low, self.high = flag.low + above, flag.low + above + flag.width - 1
-        self.numbers = bit_numbers(facts, WORD_BITS if point.bits else point.width)
+        self.numbers = facts.bit_numbers(WORD_BITS if point.bits else point.width)
         self.place, self.node = _node_of(facts, {self.numbers.number(bit) for bit in (self.low, self.high)})
         self.printed = self.node.get("printed", {}) if isinstance(self.node, Map) else {}
         self.named = notation.bits(self.high - above, flag.low)
@@ -265,11 +265,11 @@ class _PointClaims:
         """Yield the claims of the bits of the point in its word, and of constant bits."""
         bits = self.point.bits
         if bits is not None:
-            words, numbers = self.notation.bits(*bits), bit_numbers(self.facts)
+            words, numbers = self.notation.bits(*bits), self.facts.bit_numbers()
             for bit in range(bits[1], bits[0] + 1):
                 evidence, place = Number(frozenset((Fraction(numbers.number(bit)),)), words), self.facts.span("bits")
                 yield from self.maker.claim("bits", str(bit), evidence, place, optional=bit not in bits)
-        numbers = bit_numbers(self.facts, self.point.width if bits is None else WORD_BITS)
+        numbers = self.facts.bit_numbers(self.point.width if bits is None else WORD_BITS)
         fixed: Any = self.facts.get("fixed") if self._states("fixed") else None
         for run, constant in fixed.items() if isinstance(fixed, Map) else ():
             place, ends = fixed.key_span(run), numbers_in(run)

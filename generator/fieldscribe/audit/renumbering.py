@@ -8,12 +8,10 @@ from typing import NamedTuple
 from fieldscribe.audit.comparison import Editions
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.keys import forms, keys_of
-from fieldscribe.language.keys.places import DEVICE, PART
-from fieldscribe.language.keys.shapes import LINES_OF
+from fieldscribe.language.keys.places import DEVICE, LINES_OF, PART
 from fieldscribe.language.load import as_yaml
-from fieldscribe.language.nodes import Map, Seq
-from fieldscribe.language.source import SourceFile
-from fieldscribe.language.value_checks import compiled_pattern
+from fieldscribe.language.nodes import Map, Seq, SourceFile
+from fieldscribe.language.shape import compiled_pattern
 from fieldscribe.schema_types import Items, Place, ValueShape
 from fieldscribe.wording import LINES_NAMED
 

@@ -9,12 +9,11 @@ from typing import Any
 
 from fieldscribe.authoring.starting import is_schema
 from fieldscribe.diagnostics import Report
-from fieldscribe.language.canonical import canonical
+from fieldscribe.language.canonical import OddError, canonical, comments, unbroken
 from fieldscribe.language.files import parts_of
 from fieldscribe.language.key_tables import schema_text
 from fieldscribe.language.load import load
-from fieldscribe.language.pieces import OddError, comments, unbroken
-from fieldscribe.language.source import MOST_BYTES, SourceFile, decoded
+from fieldscribe.language.nodes import MOST_BYTES, SourceFile, decoded
 from fieldscribe.output.writing import replace
 from fieldscribe.pipeline import DEVICE_FILE
 from fieldscribe.safe_files import State, read_regular, shown_path, state_of

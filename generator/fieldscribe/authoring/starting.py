@@ -13,9 +13,8 @@ from fieldscribe.language.key_tables import SCHEMA_ID, schema_text
 from fieldscribe.language.keys import keys_of
 from fieldscribe.language.keys.places import DEVICE
 from fieldscribe.language.load import as_yaml
-from fieldscribe.language.nodes import Map
+from fieldscribe.language.nodes import Map, SourceFile
 from fieldscribe.language.shape import check_of
-from fieldscribe.language.source import SourceFile
 from fieldscribe.output.writing import replace
 from fieldscribe.pipeline import DEVICE_FILE, load_analysis
 from fieldscribe.schema_types import Place, ValueShape

@@ -7,8 +7,8 @@ from fieldscribe.conditions import ANY, Clause, Comparison, Domain, ends_before,
 from fieldscribe.grouping import grouped
 from fieldscribe.model import Point
 from fieldscribe.resolve.analysis import Analysis
+from fieldscribe.resolve.bus import KEY_OF
 from fieldscribe.resolve.points import ResolvedPoint
-from fieldscribe.resolve.telegrams import KEY_OF
 
 WordKey = tuple[str, str | None, int, int]
 """Space, telegram or base, index (0 where addresses of the space have no index) and address."""

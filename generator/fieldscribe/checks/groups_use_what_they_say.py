@@ -6,7 +6,7 @@ from fieldscribe.language.formula.syntax import ZeroDivisorError
 from fieldscribe.language.nodes import Map
 from fieldscribe.resolve.addresses import RULE_KNOWS
 from fieldscribe.resolve.analysis import Analysis
-from fieldscribe.resolve.telegrams import KEY_OF
+from fieldscribe.resolve.bus import KEY_OF
 from fieldscribe.resolve.values import FactError, formula_value
 
 _WORD = {"telegram": "word", "signal": "signal"}

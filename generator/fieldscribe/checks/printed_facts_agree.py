@@ -14,12 +14,11 @@ from fieldscribe.language.numbers import plain_number
 from fieldscribe.model import Allowed, Point
 from fieldscribe.resolve.addresses import WIRE
 from fieldscribe.resolve.analysis import Analysis
-from fieldscribe.resolve.bit_numbers import WORD_BITS, bit_numbers
 from fieldscribe.resolve.bounds import as_text, constant_range
 from fieldscribe.resolve.errata import PrintedFact, same
 from fieldscribe.resolve.points import ResolvedPoint
 from fieldscribe.resolve.special_codes import without_codes
-from fieldscribe.resolve.values import integer, number
+from fieldscribe.resolve.values import WORD_BITS, integer, number
 from fieldscribe.wording.exact import fixed_rule, number_text
 
 _LOW, _HIGH, _WRITE = "low_", "high_", "write_"
@@ -235,7 +234,7 @@ def _flags(analysis: Analysis, resolved: ResolvedPoint) -> None:
     """Compare the masks and bit numbers printed for flags, which count in the whole word."""
     point, raw = resolved.point, resolved.facts.get("flags")
     first = point.bits[1] if point.bits else 0
-    numbers = bit_numbers(resolved.facts, WORD_BITS if point.bits else point.width)
+    numbers = resolved.facts.bit_numbers(WORD_BITS if point.bits else point.width)
     by_name = {flag.name: flag for flag in point.flags}
     for value in raw.values():
         printed = value.get("printed") if isinstance(value, Map) else None

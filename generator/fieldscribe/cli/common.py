@@ -271,7 +271,7 @@ def print_json(data: object) -> None:
 
 def _lines_of(name: str) -> list[str] | None:
     """Return the lines of a file for findings; None if it cannot be read."""
-    from fieldscribe.language.source import MOST_BYTES  # a `generate` with nothing changed starts without it
+    from fieldscribe.language.nodes import MOST_BYTES  # a `generate` with nothing changed starts without it
 
     try:
         return split_lines(read_regular(name, MOST_BYTES).data.decode("utf-8-sig", "replace"))

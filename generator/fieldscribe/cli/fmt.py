@@ -8,7 +8,7 @@ from fieldscribe.authoring.formatting import Formatting, MovedError, files_of, f
 from fieldscribe.cli.common import StopError, add_format, description_paths, print_json, report_findings, some_path
 from fieldscribe.cli.terminal import FINDINGS, FINE
 from fieldscribe.diagnostics import Report
-from fieldscribe.language.source import MOST_BYTES
+from fieldscribe.language.nodes import MOST_BYTES
 from fieldscribe.pipeline import find_devices
 from fieldscribe.report import as_data, visible
 

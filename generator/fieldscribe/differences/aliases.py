@@ -11,8 +11,7 @@ from fieldscribe.diagnostics import Report
 from fieldscribe.differences.changes import Comparison
 from fieldscribe.differences.described import Described
 from fieldscribe.grouping import grouped
-from fieldscribe.language.nodes import Map, Seq
-from fieldscribe.language.source import SourceFile
+from fieldscribe.language.nodes import Map, Seq, SourceFile
 from fieldscribe.pipeline import load_analysis
 from fieldscribe.resolve.point_facts import PointFacts
 

@@ -15,7 +15,7 @@ from fieldscribe.export import export_model
 from fieldscribe.facts.devices import FORMAT, device_table
 from fieldscribe.facts.table import Exported
 from fieldscribe.families import FAMILIES
-from fieldscribe.language.source import MOST_BYTES
+from fieldscribe.language.nodes import MOST_BYTES
 from fieldscribe.pipeline import find_devices, is_new, load_analysis
 from fieldscribe.safe_files import read_regular, shown_path
 from fieldscribe.user_errors import UnclearError

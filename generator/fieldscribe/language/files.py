@@ -8,9 +8,8 @@ from fieldscribe.diagnostics import Report, Span
 from fieldscribe.language.hints import nearest
 from fieldscribe.language.keys.places import DEVICE, PART
 from fieldscribe.language.load import load
-from fieldscribe.language.nodes import Map
+from fieldscribe.language.nodes import Map, read_source
 from fieldscribe.language.shape import check_shape
-from fieldscribe.language.source import read_source
 from fieldscribe.safe_files import Inputs, shown_path
 
 _PART_KEYS = frozenset({"group", "points"})

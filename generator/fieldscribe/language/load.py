@@ -14,8 +14,7 @@ import yaml
 from yaml import AliasEvent, MappingEndEvent, MappingStartEvent, ScalarEvent, SequenceEndEvent, StreamEndEvent
 
 from fieldscribe.diagnostics import Report, Span
-from fieldscribe.language.nodes import Map, Seq, Value, share
-from fieldscribe.language.source import Place, SourceFile
+from fieldscribe.language.nodes import Map, Place, Seq, SourceFile, Value, share
 from fieldscribe.report import LINE_BREAK
 
 MOST_DIGITS = 64

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.load import load
-from fieldscribe.language.source import SourceFile
+from fieldscribe.language.nodes import SourceFile
 from fieldscribe.model import Unit
 
 LISTED = "`fieldscribe units` lists what is known"

@@ -14,10 +14,10 @@ from fieldscribe.language.numbers import parse_number, plain_number
 from fieldscribe.language.suggestions import suggest_interval
 from fieldscribe.model import NOWHERE, Message, Place
 from fieldscribe.resolve.bases import last_address
+from fieldscribe.resolve.bus import KEY_OF, SIGNAL, SPACE, Telegrams, telegram_of
 from fieldscribe.resolve.encodings import Encoding, low_first
 from fieldscribe.resolve.point_facts import ALONE, PointFacts
 from fieldscribe.resolve.scope import Scope
-from fieldscribe.resolve.telegrams import KEY_OF, SIGNAL, SPACE, Telegrams, telegram_of
 from fieldscribe.resolve.values import FactError, formula_finding, formula_value, whole
 from fieldscribe.resolve.word_contents import layout_of
 from fieldscribe.text import counted

@@ -7,9 +7,9 @@ from fieldscribe.arithmetic.dates import DATE, DATE_AND_TIME, TIME, first_date
 from fieldscribe.arithmetic.words import BCD, mask_of
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import DatePart, Text
-from fieldscribe.resolve.bit_numbers import WORD_BITS, bit_numbers
 from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.scope import Scope
+from fieldscribe.resolve.values import WORD_BITS
 
 _PLACE = re.compile(r"(?:bits? (?P<high>[0-9]+)(?:\.\.(?P<low>[0-9]+))?)?(?: of )?(?:word (?P<word>[0-9]+))?")
 _PART = re.compile(r"(?P<name>[a-z]+)(?: from (?:(?P<first>sunday|monday) (?P<number>[01])|(?P<year>[0-9]{1,4})))?")
@@ -39,7 +39,7 @@ def layout_of_date(facts: PointFacts, *, per_word: int, low_first: bool) -> Text
 
 def _parts_of(facts: PointFacts, per_word: int) -> Iterator[DatePart]:
     stated = facts.get("parts")
-    numbers = bit_numbers(facts)
+    numbers = facts.bit_numbers()
     for position, text in enumerate(stated):
         match = _PART.fullmatch(str(text))
         place = _PLACE.fullmatch(str(stated[text])) if isinstance(stated, Map) else _PLACE.fullmatch("")

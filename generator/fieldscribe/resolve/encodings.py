@@ -8,11 +8,11 @@ from fieldscribe.language.hints import quoted
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.suggestions import space_hint, suggest_bits
 from fieldscribe.model import Special, carrier_of, type_info
-from fieldscribe.resolve.bit_numbers import BitNumbers, bit_numbers
 from fieldscribe.resolve.memo import Memo
 from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.special_codes import SpecialCodes
+from fieldscribe.resolve.values import BitNumbers
 
 
 class Encoding(NamedTuple):
@@ -114,7 +114,7 @@ def _bits_of(scope: Scope, facts: PointFacts, space: str) -> tuple[int, int] | N
         message = f"the space `{space}` holds {'single bits' if holds == 'bit' else 'signals'}, not words"
         scope.report.error("bit-outside-word", message, span, "leave `bits` out")
         return None
-    return _parse_bits(scope, str(text), span, bit_numbers(facts))
+    return _parse_bits(scope, str(text), span, facts.bit_numbers())
 
 
 def _parse_bits(scope: Scope, text: str, span: Span, numbers: BitNumbers) -> tuple[int, int] | None:

@@ -19,7 +19,7 @@ from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import integer_in, plain_number
 from fieldscribe.model import Titles, Variant, item_of, type_info
 from fieldscribe.resolve.scope import Scope
-from fieldscribe.resolve.values import integer, interval
+from fieldscribe.resolve.values import NUMBERINGS, WORD_BITS, BitNumbers, integer, interval
 from fieldscribe.text import shortened
 from fieldscribe.wording.exact import number_text
 
@@ -205,6 +205,10 @@ class PointFacts:
         """Return the fact; `otherwise` if no layer states it."""
         layer = self._where.get(key)
         return otherwise if layer is None else layer[key]
+
+    def bit_numbers(self, width: int = WORD_BITS) -> BitNumbers:
+        """Return how the manual numbers the bits of the point's word."""
+        return BitNumbers(width, *NUMBERINGS.get(str(self.get("bit_numbers")), ()))
 
     def span(self, key: str | None = None) -> Span:
         """Return the place of the fact, or of the point's name if no layer states it."""

@@ -16,6 +16,7 @@ from fieldscribe.language.units import unit_hint
 from fieldscribe.model import Linear, Point, Shape, Source, Terms, Unit
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.bounds import Bounds
+from fieldscribe.resolve.bus import KEY_OF, Telegrams
 from fieldscribe.resolve.conditions import condition_of
 from fieldscribe.resolve.encodings import Encoding, Encodings
 from fieldscribe.resolve.memo import FactKeys, Memo, hashable
@@ -25,7 +26,6 @@ from fieldscribe.resolve.scales import IDENTITY, Scales
 from fieldscribe.resolve.scope import PLAIN, Scope, cited, first_line, source_from, titles
 from fieldscribe.resolve.shapes import ShapeAndLimits, Shapes
 from fieldscribe.resolve.symbols import SymbolTable
-from fieldscribe.resolve.telegrams import KEY_OF, Telegrams
 from fieldscribe.resolve.values import integer, number, pattern
 
 _MOST_NAMES = 12

@@ -14,6 +14,16 @@ from fieldscribe.language.formula.syntax import FormulaError, UnknownNameError
 from fieldscribe.language.numbers import NumberError, parse_integer, parse_number
 from fieldscribe.language.suggestions import suggest_interval
 
+WORD_BITS = 16
+"""The bits of a word."""
+NUMBERINGS = {
+    "from 0": (0, False),
+    "from 1": (1, False),
+    "from 0 at the top": (0, True),
+    "from 1 at the top": (1, True),
+}
+"""The numberings of bits in manuals: the number of the first bit, and whether that is the highest one."""
+
 
 class FactError(Exception):
     """A fact cannot be used. The arguments are those of `Report.error`; none if the finding is reported already."""
@@ -95,6 +105,38 @@ def whole_ends(text: str, span: Span, report: Report) -> tuple[int, int] | None:
     """Return both numbers of `a..b`, or a single number twice; None after a finding."""
     ends = [integer(end.strip(), span, report) for end in text.split("..", 1)]
     return None if ends[0] is None or ends[-1] is None else (ends[0], ends[-1])
+
+
+class BitNumbers(NamedTuple):
+    """The numbering of a number of bits in a manual; the model counts them from 0, the lowest one first."""
+
+    width: int
+    first: int = 0
+    from_top: bool = False
+
+    def bit(self, number: int) -> int:
+        """Return the bit that the manual numbers so."""
+        return self.width - 1 + self.first - number if self.from_top else number - self.first
+
+    def number(self, bit: int) -> int:
+        """Return the number that the manual gives a bit."""
+        return self.width - 1 + self.first - bit if self.from_top else bit + self.first
+
+    def written(self, high: int, low: int) -> str:
+        """Return an interval of bits as text, in the numbers of the manual."""
+        return f"{self.number(high)}..{self.number(low)}"
+
+    def range_of(self, text: str, span: Span, report: Report) -> tuple[int, int] | None:
+        """Return the highest and the lowest bit that `5..4` or a single number names; None after a finding."""
+        ends = whole_ends(text, span, report)
+        if ends is None:
+            return None
+        high, low = map(self.bit, ends)
+        if high < low:
+            message, hint = f"bits `{text}` run upwards", f"the higher bit comes first: {self.written(low, high)}"
+            report.error("range-reversed", message, span, hint)
+            return None
+        return high, low
 
 
 def formula_value(text: str, names: Mapping[str, Fraction], span: Span, unknown: str = "") -> Fraction:

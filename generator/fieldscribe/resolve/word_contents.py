@@ -12,11 +12,10 @@ from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_integer
 from fieldscribe.language.suggestions import suggest_interval
 from fieldscribe.model import NOTATIONS, Allowed, Digits, Entry, Enum, Fixed, Flag, Interval, Shape, Text
-from fieldscribe.resolve.bit_numbers import WORD_BITS, bit_numbers
 from fieldscribe.resolve.dates import is_date, layout_of_date
 from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.scope import Scope, titles
-from fieldscribe.resolve.values import integer, number, pattern
+from fieldscribe.resolve.values import WORD_BITS, integer, number, pattern
 from fieldscribe.schema_types import TEXTS
 from fieldscribe.text import humanised
 from fieldscribe.wording.exact import number_text
@@ -219,7 +218,7 @@ def fixed_of(scope: Scope, facts: PointFacts, bits: tuple[int, int] | None, widt
         return None
     word = WORD_BITS if bits is not None else width
     taken = 0 if bits is None else ((1 << width) - 1) << bits[1]
-    mask, value, numbers = 0, 0, bit_numbers(facts, word)
+    mask, value, numbers = 0, 0, facts.bit_numbers(word)
     for key, content in node.items():
         span, text = node.key_span(key), f"bits {key}" if ".." in key else f"bit {key}"
         ends, number = numbers.range_of(key, span, scope.report), integer(content, node.span(key), scope.report)
@@ -257,7 +256,7 @@ def flags_of(scope: Scope, facts: PointFacts, bits: tuple[int, int] | None, widt
     taken = Taken(scope.report, "bit", "bits-overlap")
     result = []
     last, first = bits or (width - 1, 0)
-    numbers = bit_numbers(facts, width if bits is None else WORD_BITS)
+    numbers = facts.bit_numbers(width if bits is None else WORD_BITS)
     for key, value in node.items():
         span, name = node.key_span(key), name_of(value)
         ends = numbers.range_of(key, span, scope.report)

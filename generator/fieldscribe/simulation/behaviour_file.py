@@ -25,9 +25,8 @@ from fieldscribe.language.formula.syntax import (
 from fieldscribe.language.hints import nearest, quoted
 from fieldscribe.language.keys.places import BEHAVIOUR
 from fieldscribe.language.load import load
-from fieldscribe.language.nodes import Map
+from fieldscribe.language.nodes import Map, read_source
 from fieldscribe.language.shape import check_shape
-from fieldscribe.language.source import read_source
 from fieldscribe.language.units import shipped_unit
 from fieldscribe.model import Device, Flag, Point
 from fieldscribe.resolve.values import FactError, formula_finding, number

@@ -13,8 +13,7 @@ from typing import Any, TypeVar
 from fieldscribe.diagnostics import Report, Span
 from fieldscribe.families import family
 from fieldscribe.language.load import load
-from fieldscribe.language.nodes import Map, Seq
-from fieldscribe.language.source import read_source
+from fieldscribe.language.nodes import Map, Seq, read_source
 from fieldscribe.model import Device
 from fieldscribe.pipeline import DEVICE_FILE, load_device
 from fieldscribe.resources import descriptions_dir

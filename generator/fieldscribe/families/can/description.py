@@ -4,8 +4,7 @@ from collections.abc import Collection
 
 from fieldscribe.families.can.frames import LONGEST
 from fieldscribe.language.keys import forms, places
-from fieldscribe.language.keys.places import BUS, FRAME, MESSAGE
-from fieldscribe.language.keys.shapes import DIRECTION, NAMED
+from fieldscribe.language.keys.places import BUS, DIRECTION, FRAME, MESSAGE, NAMED
 from fieldscribe.schema_types import Key, Text, ValueShape, Whole, by
 
 _BITS = Whole(choices=(11, 29))

@@ -24,8 +24,8 @@ from fieldscribe.importing.draft_text import (
     snake,
 )
 from fieldscribe.importing.readers import MOST_ROWS, UnreadableError
+from fieldscribe.importing.wb.conditions import Parameters
 from fieldscribe.importing.wb.heads import FAMILY, base_of, blocks_of, bus_of, first_firmware, identification
-from fieldscribe.importing.wb.parameters import Parameters
 from fieldscribe.importing.wb.rows import Row, components_of
 from fieldscribe.importing.wb.templates import MOST_BYTES, Texts, labels_text, objects, read_template
 from fieldscribe.safe_files import read_regular

@@ -7,7 +7,7 @@ from typing import Any
 
 from fieldscribe.families import families
 from fieldscribe.importing.draft_text import DraftBlock, DraftGroup, DraftPoint, Names, scalar
-from fieldscribe.importing.wb.parameters import Parameters
+from fieldscribe.importing.wb.conditions import Parameters
 from fieldscribe.importing.wb.templates import in_slots, number_of, objects, whole_of
 from fieldscribe.text import line
 from fieldscribe.wording.exact import number_text

@@ -1,8 +1,7 @@
 """The keys under `bus`, and the keys of its codes."""
 
 from fieldscribe.language.keys import forms
-from fieldscribe.language.keys.places import BUS, CODE
-from fieldscribe.language.keys.shapes import LINES_OF, SEVERAL, WORD_ORDER
+from fieldscribe.language.keys.places import BUS, CODE, LINES_OF, SEVERAL, WORD_ORDER
 from fieldscribe.model import TYPES
 from fieldscribe.schema_types import NUMBER, YES_NO, Items, Key, Place, Text, ValueShape, Whole, by
 

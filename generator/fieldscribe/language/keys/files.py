@@ -2,8 +2,7 @@
 
 from fieldscribe.families import FAMILIES
 from fieldscribe.language.keys import forms, places
-from fieldscribe.language.keys.places import BEHAVIOUR, DEVICE, FILES, GROUP
-from fieldscribe.language.keys.shapes import A_NAME, NAME, NAMED, TITLE
+from fieldscribe.language.keys.places import A_NAME, BEHAVIOUR, DEVICE, FILES, GROUP, NAME, NAMED, TITLE
 from fieldscribe.schema_types import BOOLEAN, NUMBER, Items, Key, Place, Places, Text, ValueShape, Whole, by, one_of
 
 _DOCUMENT = Place().means("One manual.", [{"title": "ModBus", "language": "de"}])

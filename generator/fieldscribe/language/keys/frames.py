@@ -2,8 +2,18 @@
 
 from fieldscribe.families import families
 from fieldscribe.language.keys import forms
-from fieldscribe.language.keys.places import COMMAND, ERRATUM, FRAME, LOOKED_THROUGH, STEP, TELEGRAM
-from fieldscribe.language.keys.shapes import DIRECTION, LINE_OR_LINES, NAMED, PRINTED_NUMBER
+from fieldscribe.language.keys.places import (
+    COMMAND,
+    DIRECTION,
+    ERRATUM,
+    FRAME,
+    LINE_OR_LINES,
+    LOOKED_THROUGH,
+    NAMED,
+    PRINTED_NUMBER,
+    STEP,
+    TELEGRAM,
+)
 from fieldscribe.schema_types import BOOLEAN, NOTHING, NUMBER, Items, Key, Text, ValueShape, Whole, by, one_of
 
 _SAID = by(

@@ -1,8 +1,7 @@
 """The keys that say what the number of a point means: type, scale, unit, limits, names."""
 
 from fieldscribe.language.keys import forms, places
-from fieldscribe.language.keys.places import FACTS, GROUP
-from fieldscribe.language.keys.shapes import NAMED, PRINTED_NUMBER, WORD_ORDER
+from fieldscribe.language.keys.places import FACTS, GROUP, NAMED, PRINTED_NUMBER, WORD_ORDER
 from fieldscribe.schema_types import (
     NOTHING,
     NUMBER,

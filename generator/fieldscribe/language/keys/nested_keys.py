@@ -1,7 +1,7 @@
 """The keys nested inside facts of points: of enums, flags, special codes, printed facts and sources."""
 
 from fieldscribe.language.keys import forms, places
-from fieldscribe.language.keys.shapes import LINES_OF, NAMED, PRINTED_NUMBER, in_words
+from fieldscribe.language.keys.places import LINES_OF, NAMED, PRINTED_NUMBER, in_words
 from fieldscribe.model import TYPES
 from fieldscribe.schema_types import NUMBER, YES_NO, Items, Key, Place, Text, ValueShape, Whole, by
 

@@ -1,8 +1,24 @@
 """The keys of points: what identifies a point, and how it may be used; `meaning.py` has what its number means."""
 
 from fieldscribe.language.keys import forms, places
-from fieldscribe.language.keys.places import CITED, DEVICE, FACTS, GROUP, MEMBER, POINT, POINTS, SET, USE, VARIANT
-from fieldscribe.language.keys.shapes import LAST_LINE, NAME, NAMED, NOTE, PRINTED_NUMBER, TITLE
+from fieldscribe.language.keys.places import (
+    CITED,
+    DEVICE,
+    FACTS,
+    GROUP,
+    LAST_LINE,
+    MEMBER,
+    NAME,
+    NAMED,
+    NOTE,
+    POINT,
+    POINTS,
+    PRINTED_NUMBER,
+    SET,
+    TITLE,
+    USE,
+    VARIANT,
+)
 from fieldscribe.schema_types import BOOLEAN, NOTHING, YES_NO, Items, Key, Places, Text, ValueShape, Whole, by, one_of
 
 _TITLED = (places.FLAG, places.RECORD, places.CODE, *CITED)
