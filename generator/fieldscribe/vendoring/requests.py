@@ -24,7 +24,7 @@ from fieldscribe.pages.site import NAME, Shelf, site_files
 from fieldscribe.resources import render, templates_dir
 from fieldscribe.targets import target
 from fieldscribe.targets.docs import csv_files, html_files, markdown_files, xlsx_files
-from fieldscribe.targets.docs.scope import scope_of
+from fieldscribe.targets.docs.cells import scope_of
 from fieldscribe.targets.identifiers import LEFT_OUT
 from fieldscribe.user_errors import UnclearError
 from fieldscribe.vendoring.selection import select

@@ -15,7 +15,7 @@ from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.model import Point
 from fieldscribe.resources import render
 from fieldscribe.targets.docs import html_files
-from fieldscribe.targets.docs.scope import scope_of
+from fieldscribe.targets.docs.cells import scope_of
 from fieldscribe.targets.vectors.oracle import INFINITY, Oracle, Ratio, quotient
 from support.described import DEVICES as KITCHENS
 from support.described import made, shipped

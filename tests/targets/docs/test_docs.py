@@ -13,7 +13,7 @@ import pytest
 from fieldscribe.families import family
 from fieldscribe.model import Allowed, Device, Document, Enum, Fixed, Flag, Interval, Limit, Place, Source, Special
 from fieldscribe.resources import render
-from fieldscribe.targets.docs import bus, outputs
+from fieldscribe.targets.docs import device_tables, outputs
 from fieldscribe.targets.docs.cells import MARKDOWN, anchor, link, narrow, target
 from support.models import HERTZ, NUMBER, changed, entry, linear, point, sample_device, titles, value_of
 
@@ -312,8 +312,8 @@ def test_the_facts_of_a_group(source: Source, facts: str) -> None:
 
 def test_a_family_that_adds_nothing_has_the_facts_of_every_bus(monkeypatch: pytest.MonkeyPatch) -> None:
     bare = replace_record(family("modbus"), name="bare", folder="support")
-    monkeypatch.setattr(bus, "family", lambda _: bare)
-    view = bus.bus_view(DEVICE, MARKDOWN)
+    monkeypatch.setattr(device_tables, "family", lambda _: bare)
+    view = device_tables.bus_view(DEVICE, MARKDOWN)
     assert "| Unit numbers | 1..32 |" in view.facts
     assert "padded" not in view.facts
     assert "Functions" in dict(view.sections)

@@ -11,7 +11,7 @@ import pytest
 from fieldscribe.model import Device
 from fieldscribe.resources import render
 from fieldscribe.targets.docs import html_files
-from fieldscribe.targets.docs.scope import scope_of
+from fieldscribe.targets.docs.cells import scope_of
 from support.described import shipped
 from support.made_once import made_once
 from support.toolchains import NODE_MODULES, npm_package, succeed, tool

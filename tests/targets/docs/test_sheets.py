@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 from fieldscribe.model import Device, Fixed, Flag, Place, Point, Source, Special, Text
 from fieldscribe.targets.docs import csv_files, sheet, tables, xlsx_files
-from fieldscribe.targets.docs.scope import scope_of
+from fieldscribe.targets.docs.cells import scope_of
 from fieldscribe.targets.docs.tables import no_number
 from openpyxl import load_workbook
 from openpyxl.worksheet.worksheet import Worksheet

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from fieldscribe.model import Device
 from fieldscribe.targets.docs import csv_files, sheet, tables, xlsx_files
-from fieldscribe.targets.docs.scope import scope_of
+from fieldscribe.targets.docs.cells import scope_of
 from openpyxl import load_workbook
 from support.described import KITCHENS, SHIPPED, made, shipped
 from support.places import ROOT

@@ -11,7 +11,7 @@ from fieldscribe.model import Device
 
 if TYPE_CHECKING:
     from fieldscribe.resources import Render
-    from fieldscribe.targets.docs.scope import DocsScope
+    from fieldscribe.targets.docs.cells import DocsScope
     from fieldscribe.targets.docs.tables import Table
 
 SEES_TITLES = True
@@ -21,7 +21,7 @@ WEIGHT = 2.0
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """Yield the files of a device: path relative to the output folder, and text."""
-    from fieldscribe.targets.docs.scope import scope_of
+    from fieldscribe.targets.docs.cells import scope_of
 
     scope = scope_of(device)
     for path, text in chain(markdown_files(scope, render), csv_files(scope), html_files(scope, render)):

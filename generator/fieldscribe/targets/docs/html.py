@@ -23,10 +23,9 @@ from fieldscribe.model import Device, Erratum, Frame, Message, Source
 from fieldscribe.resources import Render, templates_dir
 from fieldscribe.targets import knows
 from fieldscribe.targets.docs import device_tables
-from fieldscribe.targets.docs.bus import bus_view, identifier_text, role_text
-from fieldscribe.targets.docs.cells import Form, source_text
+from fieldscribe.targets.docs.cells import DocsScope, Form, source_text
+from fieldscribe.targets.docs.device_tables import bus_view, identifier_text, role_text
 from fieldscribe.targets.docs.html_points import Points
-from fieldscribe.targets.docs.scope import DocsScope
 from fieldscribe.targets.docs.tables import items_of
 from fieldscribe.targets.identifiers import head_lines
 from fieldscribe.targets.python.identifiers import Identifiers

@@ -11,7 +11,7 @@ from fieldscribe.facts.table import Fact
 from fieldscribe.families import family
 from fieldscribe.model import Device, Entry, Enum, Flag, Point, Source, Special, Titles
 from fieldscribe.model.point import bits_of
-from fieldscribe.targets.docs.scope import DocsScope, reference_heads
+from fieldscribe.targets.docs.cells import DocsScope, reference_heads
 from fieldscribe.targets.python.identifiers import attribute
 from fieldscribe.targets.rust.literals import type_name
 from fieldscribe.targets.typescript.identifiers import attribute as constant

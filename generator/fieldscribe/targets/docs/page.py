@@ -9,10 +9,22 @@ from fieldscribe.families import family
 from fieldscribe.grouping import grouped
 from fieldscribe.model import Command, Device, Message, Point
 from fieldscribe.targets.docs import device_tables
-from fieldscribe.targets.docs.bus import BusView, bus_view
-from fieldscribe.targets.docs.cells import MARKDOWN, anchor, by_rows, cell, code, link, paragraph
+from fieldscribe.targets.docs.cells import (
+    MARKDOWN,
+    DocsScope,
+    anchor,
+    by_rows,
+    cell,
+    code,
+    link,
+    numbers_head,
+    numbers_text,
+    paragraph,
+    place_text,
+    reference_heads,
+)
+from fieldscribe.targets.docs.device_tables import BusView, bus_view
 from fieldscribe.targets.docs.points import GroupView, group_views
-from fieldscribe.targets.docs.scope import DocsScope, numbers_head, numbers_text, place_text, reference_heads
 from fieldscribe.targets.docs.sheet import wanted_text
 from fieldscribe.targets.docs.words import is_broken
 from fieldscribe.targets.identifiers import command as command_line

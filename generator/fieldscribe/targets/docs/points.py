@@ -12,6 +12,8 @@ from fieldscribe.grouping import grouped
 from fieldscribe.model import Enum, Group, Point
 from fieldscribe.targets.docs.cells import (
     LINE_BREAK,
+    DocsScope,
+    Remarks,
     anchor,
     by_rows,
     cell,
@@ -20,12 +22,15 @@ from fieldscribe.targets.docs.cells import (
     narrow,
     narrow_link,
     narrow_target,
+    numbers_head,
+    numbers_text,
     paragraph,
+    place_text,
+    reference_heads,
     source_cell,
     source_text,
     target,
 )
-from fieldscribe.targets.docs.scope import DocsScope, Remarks, numbers_head, numbers_text, place_text, reference_heads
 from fieldscribe.targets.docs.words import WordView, word_views
 from fieldscribe.wording.exact import fixed_rule
 from fieldscribe.wording.rules import RenamedPoints

@@ -9,9 +9,8 @@ from fieldscribe.conditions import Condition
 from fieldscribe.families import family
 from fieldscribe.model import Bus, Device, Point, item_of
 from fieldscribe.targets.vectors.decimals import digits, displayed
-from fieldscribe.targets.vectors.exchanges import Exchanges
+from fieldscribe.targets.vectors.exchanges import Exchanges, Wire
 from fieldscribe.targets.vectors.floats import floats
-from fieldscribe.targets.vectors.frames import Wire
 from fieldscribe.targets.vectors.lines import Lines
 from fieldscribe.targets.vectors.numbers import Memory, numbers
 from fieldscribe.targets.vectors.oracle import Oracle, outer_bounds

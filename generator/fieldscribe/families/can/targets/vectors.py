@@ -18,7 +18,7 @@ from fieldscribe.families.can.frames import (
     request_and_answer,
 )
 from fieldscribe.model import Bus, Device, Message, Point, Telegram
-from fieldscribe.targets.vectors.frames import Script, Wire, single_bit_errors, with_flipped, words_in_bytes
+from fieldscribe.targets.vectors.exchanges import Script, Wire, single_bit_errors, with_flipped, words_in_bytes
 from fieldscribe.targets.vectors.lines import Lines
 from fieldscribe.targets.vectors.oracle import as_raw
 from fieldscribe.targets.vectors.words import bytes_exchanged

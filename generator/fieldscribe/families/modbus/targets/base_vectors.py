@@ -9,7 +9,7 @@ from fieldscribe.families.modbus import SPACES
 from fieldscribe.families.modbus.exchange import Request
 from fieldscribe.families.modbus.targets.wire import ModbusWire
 from fieldscribe.model import Base, Found, Point
-from fieldscribe.targets.vectors.frames import Script, words_in_bytes
+from fieldscribe.targets.vectors.exchanges import Script, words_in_bytes
 
 KINDS = {
     "base": "base:word given:pairs? script:script? status:word start:int? last:int?",

@@ -7,7 +7,7 @@ from fieldscribe.families.modbus import BIT_LISTS, FUNCTIONS, READS, SPACES, pro
 from fieldscribe.families.modbus.exchange import Request, build, parse_reply, parse_request
 from fieldscribe.families.modbus.frames import Flaw, crc16, data_size, frame, pack_bits
 from fieldscribe.model import Bus, Device, Frame, Point
-from fieldscribe.targets.vectors.frames import (
+from fieldscribe.targets.vectors.exchanges import (
     Example,
     Script,
     Wire,

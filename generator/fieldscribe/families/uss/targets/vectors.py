@@ -28,7 +28,14 @@ from fieldscribe.families.uss.telegrams import (
     telegram,
 )
 from fieldscribe.model import Bus, Device, Frame, Point
-from fieldscribe.targets.vectors.frames import Example, Script, Wire, of_other_lengths, single_bit_errors, with_flipped
+from fieldscribe.targets.vectors.exchanges import (
+    Example,
+    Script,
+    Wire,
+    of_other_lengths,
+    single_bit_errors,
+    with_flipped,
+)
 from fieldscribe.targets.vectors.lines import NO_BROADCAST, Lines
 
 KINDS = {
