@@ -100,8 +100,7 @@ def _compare_fixed_bits(analysis: Analysis, located: LocatedFrame, seen: Seen, p
         if word is None or point.fixed is None or word & point.fixed.mask == point.fixed.bits:
             continue
         message = f"the word of `{point.name}` is {word & 0xFFFF:04X}h, {wording.fixed_text(point)}"
-        printed = f"{word & 0xFFFF:04X}h"
-        analysis.report_printed(located.printed("fixed", printed, None, message))
+        analysis.report_printed(located.printed("fixed", f"{word & 0xFFFF:04X}h", None, message))
 
 
 def _whole_word(point: Point) -> Point:
@@ -113,8 +112,7 @@ def _whole_word(point: Point) -> Point:
 
 def report_no_frame(analysis: Analysis, located: LocatedFrame, message: str) -> Seen:
     """Report bytes that are not a frame of the device; an erratum may give the right ones."""
-    printed = hex_of(located.frame.printed)
-    analysis.report_printed(located.printed("form", printed, None, message))
+    analysis.report_printed(located.printed("form", hex_of(located.frame.printed), None, message))
     return Seen(replace(located.frame, valid=False))
 
 

@@ -28,12 +28,7 @@ def from_database(arguments: Namespace) -> tuple[str, list[str]]:
         raise StopError(f"`{arguments.file}` holds no signals", "a CAN database has messages with signals", FINDINGS)
     document = Document(arguments.file.name, sha256(data).hexdigest(), "database")
     head = Head(
-        arguments.device or "draft",
-        [document],
-        "can",
-        facts=drafted.head(),
-        kind="a CAN database",
-        bus=drafted.bus(),
+        arguments.device or "draft", [document], "can", facts=drafted.head(), kind="a CAN database", bus=drafted.bus()
     )
     return compilable(drafted.groups, head, with_head=arguments.device is not None), list(drafted.report())
 

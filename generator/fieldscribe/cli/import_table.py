@@ -64,10 +64,7 @@ def from_tables(arguments: Namespace) -> tuple[str, list[str]] | None:
         raise _nothing_drafted(arguments, drafted)
     digest = sha256(read_regular(arguments.file, MOST_BYTES).data).hexdigest()
     head = Head(
-        arguments.device or "draft",
-        [Document(arguments.file.name, digest)],
-        drafted.family.name,
-        arguments.language,
+        arguments.device or "draft", [Document(arguments.file.name, digest)], drafted.family.name, arguments.language
     )
     return compilable(drafted.groups, head, with_head=arguments.device is not None), []
 

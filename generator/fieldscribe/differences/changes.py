@@ -144,8 +144,7 @@ class Comparison:
 
 def compared(old: Mapping[str, Side], new: Mapping[str, Side]) -> list[Comparison]:
     """Return the devices of both sides, in the order of the new side, removed ones last."""
-    ids = dict.fromkeys([*new, *old])
-    return [Comparison(device, old.get(device), new.get(device)) for device in ids]
+    return [Comparison(device, old.get(device), new.get(device)) for device in dict.fromkeys([*new, *old])]
 
 
 def subject_of(difference: Difference) -> str | None:

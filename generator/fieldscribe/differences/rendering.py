@@ -97,8 +97,7 @@ def _text_of(comparison: Comparison, group: _Group) -> Iterator[Line]:
         yield [("", "    "), ("strong", group.moved), ("", f": {_OTHER_LINES}")]
         return
     yield [("", "    "), ("strong", visible(_subject(group))), ("", visible(_sentence(group.first)))]
-    places = comparison.places(group.first)
-    where = [place for place in dict.fromkeys(places.values()) if place]
+    where = [place for place in dict.fromkeys(comparison.places(group.first).values()) if place]
     yield [("", "      "), ("place", visible(" -> ".join(where)))]
     for language, names in _symbols(comparison, group.first):
         yield [("", visible(f"      {language}: {names}"))]

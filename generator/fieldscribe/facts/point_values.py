@@ -212,10 +212,7 @@ def byte_order_view(point: Exported) -> object:
 def base_view(place: Exported) -> object:
     """Return the distance of each printed number from the address, by numbering."""
     first = min(place["addresses"], default=0)
-    return {
-        numbering: number - first if isinstance(number, int) else number
-        for numbering, number in place["references"].items()
-    }
+    return {name: number - first if isinstance(number, int) else number for name, number in place["references"].items()}
 
 
 def written_view(point: Exported) -> object:
@@ -366,8 +363,7 @@ def _factor(factor: Factor) -> str:
 
 def _lifted(limit: Limit) -> str:
     """Return the condition under which the limit does not apply."""
-    cases = (_is_code(f"{name}.raw", *band) for name, codes in limit.unless for band in codes)
-    return " or ".join(cases)
+    return " or ".join((_is_code(f"{name}.raw", *band) for name, codes in limit.unless for band in codes))
 
 
 def _is_code(raw: str, low: int, high: int) -> str:

@@ -266,8 +266,7 @@ class Behaviour:
         if ref.kind == "plant":
             self._plant[ref.name] = number
             return
-        point = self._points[ref.name]
-        raw, flag = self._encoded(ref, point, number), ref.flag
+        raw, flag = self._encoded(ref, self._points[ref.name], number), ref.flag
         self._held[ref] = raw
         if flag is not None:
             bits = raw if flag.active or flag.width > 1 else 1 - raw

@@ -62,12 +62,7 @@ class Delivery:
         """Return the delivery as JSON data."""
         order = self.order
         names = ("files", "written", "removed", "missing", "edited", "stale", "kept", "refused")
-        head = {
-            "device": order.device,
-            "name": order.name,
-            "language": order.request.language,
-            "out": str(order.out),
-        }
+        head = {"device": order.device, "name": order.name, "language": order.request.language, "out": str(order.out)}
         return head | {name: getattr(self, name) for name in names}
 
 
@@ -86,8 +81,7 @@ def refuse_duplicates(orders: Iterable[Order]) -> None:
 def compare(order: Order) -> Delivery:
     """Return the differences, and write nothing. Raises UnclearError."""
     manifests = Manifests(order.out, VENDORED)
-    made = _files(order, manifests)
-    plan, delivery = _planned(order, manifests, made, force=False)
+    plan, delivery = _planned(order, manifests, _files(order, manifests), force=False)
     delivery.kept = sorted(plan.kept)
     for path in plan.stale:
         if path not in plan.refused:

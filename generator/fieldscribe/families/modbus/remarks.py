@@ -9,14 +9,7 @@ from fieldscribe.families.modbus.frames import Flaw, Unwrapped
 from fieldscribe.model import Device
 from fieldscribe.text import counted, line
 from fieldscribe.wording.exact import hex_text
-from fieldscribe.wording.frames import (
-    check_text,
-    numbered,
-    spaced,
-    span_text,
-    strange_unit,
-    too_short,
-)
+from fieldscribe.wording.frames import check_text, numbered, spaced, span_text, strange_unit, too_short
 
 EXCEPTIONS: Mapping[int, str] = {
     0x01: "illegal function",

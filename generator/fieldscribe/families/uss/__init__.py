@@ -27,11 +27,7 @@ FAMILY = Family(
     options=(
         Option("pkw", "words of the parameter part (P2013; default: 127)", _ALL, int, "N"),
         Option("pzd", "words of process data (P2012; default: 2)", _ALL, int, "N"),
-        Option(
-            "single_first",
-            "single words are in the first value word although --pkw is 4 (some firmware)",
-            _ALL,
-        ),
+        Option("single_first", "single words are in the first value word although --pkw is 4 (some firmware)", _ALL),
         Option(
             "direction",
             "direction of the frames (default: an answer follows a request to the same unit)",

@@ -84,8 +84,7 @@ def tokens(text: str) -> list[Token]:
         match = _TOKEN.match(text, offset)
         if match is None:
             _refuse(text, offset)
-        kind = match.lastgroup
-        if kind == "end":
+        if match.lastgroup == "end":
             tokens.append(Token("end", "", "", len(text.rstrip(" \t"))))
             return tokens
         tokens.append(_token(match))

@@ -51,8 +51,7 @@ class MacroFields(NamedTuple):
 def point_texts(scope: CrateScope, render: Render) -> tuple[str, bool]:
     """Return the texts of all points, and whether one of them names items of the runtime."""
     templates = _PointTemplates(scope, render)
-    texts = [templates.text(subject) for subject in scope.subjects]
-    return "".join(texts), templates.names_runtime
+    return "".join([templates.text(subject) for subject in scope.subjects]), templates.names_runtime
 
 
 class _PointTemplates:

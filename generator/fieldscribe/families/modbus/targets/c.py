@@ -298,9 +298,7 @@ def _frame(point: Point, view: PointView, layouts: frames.Layouts, selections: S
         return frames.Frame((), (), transfer)
     text_place = f"{{{view.function}_addresses, {address}, {point.words}U}}"
     parts = [text_place if text else layouts.of(point, places_of(point))]
-    parts += [
-        f"{{{unsigned(number)}, {at}, {point.words}U}}" for number, at in ((read, address), (write, to)) if number
-    ]
+    parts += [f"{{{unsigned(code)}, {at}, {point.words}U}}" for code, at in ((read, address), (write, to)) if code]
     access = f"{'r' if read else ''}{('w' if point.bits is None else 'u') if write else ''}"
     kind = f"fieldscribe_modbus_{'text_' if text else ''}{access}"
     descriptor = frames.Descriptor(kind, name, f"{{{', '.join(parts)}}}", "_frame")
@@ -346,10 +344,7 @@ def _cases(point: Point, view: PointView, access: str, selected: str) -> Iterato
 
 
 def _blocks(
-    group: str,
-    blocks: tuple[Block, ...],
-    by_name: Mapping[str, Sequence[GeneratedPoint]],
-    members: Members,
+    group: str, blocks: tuple[Block, ...], by_name: Mapping[str, Sequence[GeneratedPoint]], members: Members
 ) -> BlocksView:
     def parts() -> Iterator[Part]:
         for number, block in enumerate(blocks):

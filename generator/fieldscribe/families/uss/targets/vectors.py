@@ -18,15 +18,7 @@ from fieldscribe.families.uss.parts import (
     part_of,
     write_task,
 )
-from fieldscribe.families.uss.telegrams import (
-    LAST_PARAMETER,
-    Request,
-    broadcast,
-    build,
-    parse,
-    request_in,
-    telegram,
-)
+from fieldscribe.families.uss.telegrams import LAST_PARAMETER, Request, broadcast, build, parse, request_in, telegram
 from fieldscribe.model import Bus, Device, Frame, Point
 from fieldscribe.targets.vectors.exchanges import (
     Example,
