@@ -91,6 +91,7 @@ def epoch(package: Package, vector: Vector) -> bool:
 CHECKS: Mapping[str, Check] = {
     "decode": decode,
     "encode": encode,
+    "encode_refused": encode,
     "decode_count": decode_count,
     "encode_count": encode_count,
     "check": check,

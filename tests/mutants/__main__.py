@@ -13,7 +13,7 @@ from hashlib import sha256
 from itertools import islice
 from pathlib import Path
 
-from mutants.equivalents import entry, named
+from mutants.equivalents import is_equivalent
 from mutants.judges import JUDGES, ROOT, SURVIVED, Judge, Verdict
 from mutants.results import Results
 from mutants.rooms import drawn_in, rooms
@@ -108,14 +108,14 @@ def _generator(chosen: list[str], seed: str, count: int) -> Table:
             results.put(f"{mutant.key} {tests}" if known.outcome == SURVIVED else mutant.key, known)
         return known
 
-    equivalent, printed = named(), time.monotonic()
+    printed = time.monotonic()
     while draws:
         for room, draw in list(draws.items()):
             mutant = next(draw, None) if table.judged_of(room) < count else None
             if mutant is None:
                 del draws[room]
                 continue
-            table.add(mutant, judged(mutant), equivalent=entry("generator", mutant) in equivalent)
+            table.add(mutant, judged(mutant), equivalent=is_equivalent("generator", mutant))
         if time.monotonic() - printed > PROGRESS:
             printed = time.monotonic()
             survived = len(table.survivors)
@@ -125,7 +125,7 @@ def _generator(chosen: list[str], seed: str, count: int) -> Table:
 
 def _measure(table: Table, mutants: Iterable[Mutant], results: Results, count: int, judged: _Judged) -> Table:
     """Judge until so many count."""
-    equivalent, told, drawing = named(), time.monotonic(), iter(mutants)
+    told, drawing = time.monotonic(), iter(mutants)
     while some := list(islice(drawing, min(count - table.judged, AT_ONCE))):
         unknown = [mutant for mutant in some if results.get(mutant.key) is None]
         for at, (mutant, verdict) in enumerate(judged(unknown) if unknown else (), 1):
@@ -137,7 +137,7 @@ def _measure(table: Table, mutants: Iterable[Mutant], results: Results, count: i
         for mutant in some:
             known = results.get(mutant.key)
             assert known is not None
-            table.add(mutant, known, equivalent=entry(table.language, mutant) in equivalent)
+            table.add(mutant, known, equivalent=is_equivalent(table.language, mutant))
     return table
 
 

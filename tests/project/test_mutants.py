@@ -12,9 +12,9 @@ import pytest
 from mutants.batches import blamed, body_around, switched
 from mutants.changes import Change, places_of
 from mutants.children import BROKE_DOWN, StoppedError, in_child
-from mutants.equivalents import FILE, named
+from mutants.equivalents import FILE, is_equivalent, named
 from mutants.judges import KILLED, LEFT_OUT, SURVIVED, Command, OfC
-from mutants.sources import Source, mutant_of, sources_of
+from mutants.sources import Mutant, Source, mutant_of, sources_of
 from mutants.table import MARKS
 from support.places import TESTS
 from support.toolchains import tool
@@ -121,6 +121,26 @@ def test_each_equivalent_has_a_reason_and_a_language() -> None:
         assert kind
         assert before != after
         assert len(reason) > 20
+
+
+READS = 'modbusBlock("holding", 0x03, 0x1140, 2),', 'modbusBlock("holding", 0x03, 0x1143, 2),'
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "expected"),
+    [
+        (" / ".join(READS), " / ".join(reversed(READS)), True),
+        (" / ".join(READS), " / ".join((READS[1], READS[1])), False),
+        ('{"one", 1}, / {"two", 2},', '{"two", 2}, / {"one", 1},', False),
+        ('factor("gain", { power: -1, f32: true })', 'factor("gain", { power: -2, f32: true })', True),
+        ('Factor("gain", power=-1)', 'Factor("gain", power=-5)', True),
+        ('Factor("gain", power=-1)', 'Factor("gain", power=-0)', False),
+        ('Factor("gain", power=-1, ten_to=(-3, 3))', 'Factor("gain", power=-2, ten_to=(-3, 3))', False),
+    ],
+)
+def test_reads_in_another_order_and_larger_powers_are_equivalent(before: str, after: str, *, expected: bool) -> None:
+    mutant = Mutant("points", "", "dev.py", 1, before, after, "number", "")
+    assert is_equivalent("python", mutant) == expected
 
 
 @pytest.fixture

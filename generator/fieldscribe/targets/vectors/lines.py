@@ -39,6 +39,7 @@ KINDS = {
     # conversions between raw number, value (binary64) and count, and whether a raw number may be written
     "decode": "raw:int status:word value:real? special:word?",
     "encode": "value:real status:word raw:int?",
+    "encode_refused": "only:python.typescript value:real status:word",  # of points whose values are only decoded
     "decode_count": "raw:int status:word count:int? special:word?",
     "encode_count": "count:int status:word raw:int?",
     "f32_decode_count": "only:c raw:int status:word count:int?",

@@ -52,6 +52,8 @@ def numbers(lines: Lines, oracle: Oracle, encoding: PointEncoding, memory: Memor
         for kind, answer, samples_of_kind in asked:
             if kinds[kind]:
                 lines.add_answers(kind, answer, samples_of_kind, real if kind == "encode" else str)
+    if shape.writable and shape.form == "scaled" and not shape.encodes_values:
+        lines.add("encode_refused", 1.0, "wrong_type")
 
 
 def _kinds(shape: Shape) -> dict[str, bool]:

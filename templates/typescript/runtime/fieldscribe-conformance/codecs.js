@@ -393,6 +393,7 @@ function identifies(device, vector) {
 export const CODEC_CHECKS = {
   decode: decodes,
   encode: encodes,
+  encode_refused: encodes,
   decode_count: decodesCount,
   encode_count: encodesCount,
   check: checks,
