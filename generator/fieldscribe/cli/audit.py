@@ -62,7 +62,9 @@ def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
     add = parser.add_argument
     add_device(parser, variants=False)
-    add("--manual", type=some_path, required=True, metavar="FILE", help="the manual's text, or its folder")
+    add(
+        "--manual", type=some_path, required=True, metavar="FILE", help="the manual's text, or the folder that holds it"
+    )
     add("--report", "--format", dest="format", choices=("text", "json", "html"), default="text", help="how to report")
     add("--old", type=some_path, metavar="FILE", help="the text of the edition before: list every line that differs")
     add("--renumber", action="store_true", help="with --old: write the new numbers of cited lines into the description")
@@ -218,7 +220,9 @@ def _manual_of(subject: Analysis, place: Path) -> tuple[Path, Document]:
     if not place.exists():
         raise StopError(f"there is no file `{place}`", "name the text that was extracted from the manual")
     # only plain names, so that a description cannot leave the given folder
-    known = {each.file: each for each in documents if each.file and Path(each.file).name == each.file}
+    known = {
+        document.file: document for document in documents if document.file and Path(document.file).name == document.file
+    }
     if place.is_dir():
         present = [name for name in known if (place / name).is_file()]
         if not present:

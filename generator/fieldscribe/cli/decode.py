@@ -72,7 +72,12 @@ def add_arguments(parser: ArgumentParser) -> None:
     add("--unit", type=int, metavar="N", help="only frames to or from this unit")
     add_family_options(parser, "decode")
     add_with(parser)
-    add("-v", "--verbose", action="store_true", help="name numbers out of range, and readings that are not")
+    add(
+        "-v",
+        "--verbose",
+        action="store_true",
+        help="say which numbers are out of range, and which other readings are not",
+    )
     add_format(parser, ("jsonl",), "; json is one object, jsonl one object a line")
 
 

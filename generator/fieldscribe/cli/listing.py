@@ -34,8 +34,16 @@ def _same(value: str | None, given: str) -> bool:
 
 _FILTERS: dict[str, tuple[str, str, Callable[[Point, str], bool]]] = {
     "group": ("NAME", "of this group", lambda point, given: _same(point.group, given)),
-    "access": ("r|w", "readable (r), writable (w) or both (rw)", lambda point, given: set(given) <= set(point.access)),
-    "space": ("NAME", "of this space: coil, holding, parameter, ...", lambda point, given: _same(point.space, given)),
+    "access": (
+        "r|w",
+        "that can be read (r), written (w) or both (rw)",
+        lambda point, given: set(given) <= set(point.access),
+    ),
+    "space": (
+        "NAME",
+        "of this space: coil, holding, parameter, telegram, ...",
+        lambda point, given: _same(point.space, given),
+    ),
     "unit": ("SYMBOL", "in this unit, as in Hz", lambda point, given: point.unit.symbol == given),
     "type": ("TYPE", "of this type, as in u16", lambda point, given: _same(point.type, given)),
 }
@@ -78,7 +86,9 @@ def _points(arguments: Namespace) -> int:
     if arguments.family is not None:
         raise common.StopError("--family chooses devices", "leave out DEVICE, or --family")
     device = common.open_device(arguments)
-    tests = [(test, given) for key, (_, _, test) in _FILTERS.items() if (given := getattr(arguments, key)) is not None]
+    tests = [
+        (test, given) for name, (_, _, test) in _FILTERS.items() if (given := getattr(arguments, name)) is not None
+    ]
     points = [
         point
         for point in present(device, device.points)

@@ -69,7 +69,9 @@ def add_arguments(parser: ArgumentParser) -> None:
     add("devices", nargs="*", metavar="DEVICE[@UNIT]", help="device ids or folders, all on one line")
     line = parser.add_mutually_exclusive_group()
     line.add_argument("--tcp", metavar="[HOST:]PORT", help="answer at a TCP port of this machine (0: any free one)")
-    line.add_argument("--serial", nargs="?", const="", metavar="PORT", help="answer at a serial port, or a new pty")
+    line.add_argument(
+        "--serial", nargs="?", const="", metavar="PORT", help="answer at a serial port, or a new pseudo terminal"
+    )
     line.add_argument("--can", metavar="INTERFACE:CHANNEL", help="answer on a CAN bus, as python-can names it")
     line.add_argument("--bench", type=some_path, metavar="FILE", help="many devices on many lines")
     add("--framing", default="", help="the framing on the line, such as rtu over TCP (default: the usual one)")
@@ -84,8 +86,19 @@ def add_arguments(parser: ArgumentParser) -> None:
     add("--still", action="store_true", help="ignore its behaviour file: numbers change only by writes")
     add("--strict", action="store_true", help="print what clients do against the manual, with its line")
     add("--seed", type=int, default=0, metavar="N", help="choose other numbers where the manual gives none")
-    add("--time-scale", type=float, default=_USUAL_TIME, metavar="X", help="let the devices' time run X times as fast")
-    add("--trace", type=some_path, metavar="FILE", help="write requests and answers as JSON lines (-: standard output)")
+    add(
+        "--time-scale",
+        type=float,
+        default=_USUAL_TIME,
+        metavar="X",
+        help="let the time of the devices run X times as fast",
+    )
+    add(
+        "--trace",
+        type=some_path,
+        metavar="FILE",
+        help="write requests and answers as JSON lines (- for standard output)",
+    )
     add("--for", type=period, metavar="SECONDS", dest="seconds", help="end after that time")
 
 
@@ -168,7 +181,9 @@ async def _serve(bench: Bench, seconds: float | None, trace: TextIO | None) -> i
     servers = [await serve(line) for line in bench.lines]
     if trace not in (None, sys.stdout) and trace.seekable():
         trace.truncate(0)
-    devices = [(each, server) for line, server in zip(bench.lines, servers, strict=True) for each in line.core.devices]
+    devices = [
+        (device, server) for line, server in zip(bench.lines, servers, strict=True) for device in line.core.devices
+    ]
     for device, server in devices:
         device.on_complaint = _complain
         print(f"{device.device.id} answers as unit {device.unit} on {server.url}", flush=True)

@@ -199,7 +199,9 @@ _FRAME: FactTable = (
     NAME,
     Fact("framing", "How its bytes are framed: `rtu`, `tcp`, ...", STRING, DOCS),
     TITLE,
-    Fact("bytes", "The bytes as printed, in hex.", _HEX, DOCS).of(lambda frame, _: frame.printed.hex(" ").upper()),
+    Fact("bytes", "The bytes as printed, in hexadecimal with spaces.", _HEX, DOCS).of(
+        lambda frame, _: frame.printed.hex(" ").upper()
+    ),
     Fact("corrected", "The bytes as they should read; those that are printed unless it is misprinted.", _HEX, DOCS).of(
         lambda frame, _: frame.corrected.hex(" ").upper()
     ),
@@ -216,14 +218,26 @@ _CODE_VIEWS = (
 CODE: FactTable = (
     NAME,
     TITLE,
-    Fact("broadcast", "Whether all units may get it at once; null: as the protocol says.", null_or(BOOLEAN), BEHAVIOUR),
-    Fact("answers", "USS: the responses of a task; the tasks of a response or an error.", list_of(INTEGER), WIRE),
+    Fact(
+        "broadcast",
+        "Whether it may be sent to all units at once; null: as the protocol says.",
+        null_or(BOOLEAN),
+        BEHAVIOUR,
+    ),
+    Fact(
+        "answers",
+        "USS: of a task the responses that it can get, of a response or an error the tasks.",
+        list_of(INTEGER),
+        WIRE,
+    ),
     Fact("refusals", "USS: of a task the responses that refuse it.", list_of(INTEGER), BEHAVIOUR),
 )
 ERRATUM: FactTable = (
     Fact("id", "Its name, never reused.", STRING),
     Fact(
-        "point", "Its point; a list for several; null: none.", {"anyOf": [STRING, list_of(STRING, 2), {"type": "null"}]}
+        "point",
+        "The point it is about; a list for several; null for none.",
+        {"anyOf": [STRING, list_of(STRING, 2), {"type": "null"}]},
     )
     .differs(View("points", BEHAVIOUR, itemgetter("point"), refers="point", yaml=("point", "points")))
     .of(lambda erratum, _: erratum.points[0] if len(erratum.points) == 1 else list(erratum.points) or None),
@@ -350,7 +364,9 @@ def device_table(own_family: str, *, foreign: bool = True) -> FactTable:
             table=limits,
             views=tuple(_inside("limits", view) for fact in limits for view in fact.compared()),
         ),
-        _list("groups", "The groups, in the author's order.", _parts("group", GROUP, _MEMBERS, listed=_groups)),
+        _list(
+            "groups", "The groups of points, in the author's order.", _parts("group", GROUP, _MEMBERS, listed=_groups)
+        ),
         _list("points", "All points, in the author's order.", POINTS),
         _list(
             "commands", "Named constant writes.", _parts("command", COMMAND, "space", "address", "function", "value")
@@ -366,7 +382,9 @@ def device_table(own_family: str, *, foreign: bool = True) -> FactTable:
             "found", "The chain of blocks that a client searches for; null: none.", null_or(ref("found")), table=FOUND
         ).differs(Parts("found", "found", _found, FOUND, added=WIRE, removed=WIRE)),
         _list("bases", "The bases of addresses that do not count from 0.", _parts("base", BASE, "formula")),
-        _list("messages", "Frame layouts.", _parts("message", MESSAGE, "identifier", "bits", "direction", "layout")),
+        _list(
+            "messages", "Layouts of frames.", _parts("message", MESSAGE, "identifier", "bits", "direction", "layout")
+        ),
         _list("telegrams", "Cyclic layouts of words.", _parts("telegram", TELEGRAM, "direction", "words", "message")),
         _list("frames", "The worked frames of the manual.", _parts("frame", frame, "bytes", change=DOCS)),
         Fact(

@@ -212,7 +212,10 @@ def byte_order_view(point: Exported) -> object:
 def base_view(place: Exported) -> object:
     """Return the distance of each printed number from the address, by numbering."""
     first = min(place["addresses"], default=0)
-    return {name: number - first if isinstance(number, int) else number for name, number in place["references"].items()}
+    return {
+        numbering: number - first if isinstance(number, int) else number
+        for numbering, number in place["references"].items()
+    }
 
 
 def written_view(point: Exported) -> object:
@@ -363,7 +366,8 @@ def _factor(factor: Factor) -> str:
 
 def _lifted(limit: Limit) -> str:
     """Return the condition under which the limit does not apply."""
-    return " or ".join((_is_code(f"{name}.raw", *band) for name, codes in limit.unless for band in codes))
+    cases = (_is_code(f"{name}.raw", *band) for name, codes in limit.unless for band in codes)
+    return " or ".join(cases)
 
 
 def _is_code(raw: str, low: int, high: int) -> str:

@@ -60,7 +60,10 @@ ERRATA = Fact("errata", "The errata that touch it.", TEXTS, derived="the errata 
 
 FLAG_VALUE: FactTable = (NAME, TITLE)
 
-ENTRY: FactTable = (*FLAG_VALUE, Fact("quantity", "The quantity that it means: `0.37 kW`.", TEXT_OR_NULL, BEHAVIOUR))
+ENTRY: FactTable = (
+    *FLAG_VALUE,
+    Fact("quantity", "The quantity that it means: `0.37 kW`.", TEXT_OR_NULL, BEHAVIOUR),
+)
 
 FLAG: FactTable = (
     Fact("bits", "Which bits.", ref("bits"), WIRE, value=lambda flag, _: [flag.low + flag.width - 1, flag.low]),
@@ -91,9 +94,12 @@ SPECIAL: FactTable = (
 
 DIGITS: FactTable = (
     Fact("count", "How many there are.", {**COUNT, "maximum": 5}),
-    Fact("enum", "Names of what a digit may be, by number.", by_number(ref("entry")), table=ENTRY).of(
-        lambda digits, _: values.entries_of(digits.enum)
-    ),
+    Fact(
+        "enum",
+        "Names of the numbers that a digit may be, by number as decimal text.",
+        by_number(ref("entry")),
+        table=ENTRY,
+    ).of(lambda digits, _: values.entries_of(digits.enum)),
 )
 
 DATE_PART: FactTable = (
@@ -108,12 +114,18 @@ LAYOUT: FactTable = (
     Fact("per_word", "How many a word holds; a single one is in its low byte.", COUNT),
     Fact("padding", "The byte that pads the text; a 0 ends it.", COUNT),
     Fact("low_first", "True if the bytes of each word are swapped.", BOOLEAN),
-    Fact("parts", "The parts of a date and time, or null.", null_or(list_of(ref("date_part"))), table=DATE_PART).of(
-        lambda layout, _: layout.parts or None
-    ),
+    Fact(
+        "parts",
+        "The parts of a date and time; null of what is none.",
+        null_or(list_of(ref("date_part"))),
+        table=DATE_PART,
+    ).of(lambda layout, _: layout.parts or None),
 )
 
-_REFERENCES = ("What the manual prints for people, by numbering: `modicon`.", map_of({"type": ["integer", "string"]}))
+_REFERENCES = (
+    "What the manual prints for people, by numbering (`modicon`, ...).",
+    map_of({"type": ["integer", "string"]}),
+)
 
 POINT: FactTable = (
     Fact("name", "English snake_case; unique except for variants.", STRING),
@@ -152,9 +164,12 @@ POINT: FactTable = (
         null_or(ADDRESS),
         derived="it is the lowest of the addresses",
     ).says("Wire address", text=texts.address_text),
-    Fact("index", "The element of an array: the index beside the address, or in its rule.", INTEGER_OR_NULL, WIRE).says(
-        "Index", text=texts.index_text, column="the index of an element"
-    ),
+    Fact(
+        "index",
+        "The element of an array: the index beside the address, or the one in the addressing rule.",
+        INTEGER_OR_NULL,
+        WIRE,
+    ).says("Index", text=texts.index_text, column="the index of an element"),
     Fact("addresses", "All words, the one that holds the high part (or the first characters) first.", list_of(ADDRESS))
     .differs(
         View("address", values.address_class, values.address_view, yaml=("at",)),
@@ -185,7 +200,9 @@ POINT: FactTable = (
     Fact("base", "The base of its addresses, by name; null: they count from 0.", TEXT_OR_NULL)
     .differs(View("counted from", WIRE, itemgetter("base"), refers="base", yaml=("base", "block")))
     .says("Counted from", text=texts.base_text, column="the base of the address, if it does not count from 0"),
-    Fact("to_end", "Whether only a long enough found block has it.", BOOLEAN, BEHAVIOUR, yaml=("indices",)).says(
+    Fact(
+        "to_end", "Whether it exists only where the found block is long enough.", BOOLEAN, BEHAVIOUR, yaml=("indices",)
+    ).says(
         "Exists when", text=lambda point, _: "the block is long enough" if point.to_end else "", remark="exists when {}"
     ),
     Fact(
@@ -282,7 +299,12 @@ POINT: FactTable = (
     )
     .differs(_by_raw("special", "code", itemgetter("special"), SPECIAL, yaml=("special", "code")))
     .says(rows=texts.special_rows),
-    Fact("special_of", "The type, group or format whose special codes it shares.", STRING, attribute="specials_of")
+    Fact(
+        "special_of",
+        "The type, group or format whose special codes the point shares; empty if it shares none.",
+        STRING,
+        attribute="specials_of",
+    )
     .differs(View("codes of", API, itemgetter("special_of"), follows=("special",), yaml=("special",)))
     .says(remark="special codes of {}"),
     Fact(
@@ -310,7 +332,13 @@ POINT: FactTable = (
     )
     .of(lambda point, _: None if point.display is None else {"decimals": point.display}, shared="shape")
     .says("Shown with", text=lambda point, _: wording.decimals_text(point), remark="shown with {}"),
-    Fact("epoch", "The date from which it counts seconds, or null.", TEXT_OR_NULL, BEHAVIOUR, yaml=("notation",))
+    Fact(
+        "epoch",
+        "The date from which the value counts seconds; null if it is not a time.",
+        TEXT_OR_NULL,
+        BEHAVIOUR,
+        yaml=("notation",),
+    )
     .of(lambda point, _: point.epoch or None, shared="shape")
     .says("Time", text=lambda point, _: wording.epoch_text(point), remark="{}"),
     Fact(
@@ -373,13 +401,20 @@ POINT: FactTable = (
         derived="it follows from the old names",
     ).of(lambda point, _: [] if (enum := point.named_numbers) is None else list(enum.was), shared="shape"),
     Fact(
-        "open", "True if numbers without a name are possible, too.", BOOLEAN, BEHAVIOUR, follows=("enum as a whole",)
+        "open",
+        "True if numbers without a name are possible in addition to those of `enum`.",
+        BOOLEAN,
+        BEHAVIOUR,
+        follows=("enum as a whole",),
     ).of(lambda point, _: point.enum is not None and not point.enum.closed, shared="shape"),
     Fact("flags", "Named bits of the word.", list_of(ref("flag")), table=FLAG)
     .differs(Parts("flag", "flag", itemgetter("flags"), FLAG, same_by=("bits",), whole=API, yaml=("flags",)))
     .says(rows=texts.flag_rows),
     Fact(
-        "digits", "The decimal digits with a meaning each, highest first.", null_or(ref("digits")), table=DIGITS
+        "digits",
+        "The decimal digits of a word that each have a meaning, the highest first.",
+        null_or(ref("digits")),
+        table=DIGITS,
     ).differs(View("digits", WIRE, lambda point: point["digits"] and point["digits"]["count"])),
     Fact(
         "encoding",
@@ -423,7 +458,11 @@ POINT: FactTable = (
         "Write only when", remark="write only when: {}", column="what must hold to write it"
     ),
     Fact(
-        "takes_effect", "When a written value is used, if not at once.", TEXT_OR_NULL, BEHAVIOUR, follows=("access",)
+        "takes_effect",
+        "When the device uses a written value, if not at once.",
+        TEXT_OR_NULL,
+        BEHAVIOUR,
+        follows=("access",),
     ).says("Takes effect", remark="takes effect {}"),
     Fact(
         "write_with",

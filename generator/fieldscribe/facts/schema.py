@@ -82,12 +82,18 @@ _NUMBER_OF_ROLE = (
     "plus 1 for its low byte; of xor a mask of the combined bytes."
 )
 
-_SCALE_CONDITION = record(("point", "The point that decides.", STRING), ("raw", "Its raw number.", INTEGER))
+_SCALE_CONDITION = record(
+    ("point", "The point that decides.", STRING), ("raw", "The raw number that it must have.", INTEGER)
+)
 
 DEFINITIONS: Mapping[str, Schema] = {
     "titles": {"description": "Text for people by language code; `en` is always there.", **map_of(STRING)},
     "integer_text": {"description": "An integer as decimal text.", **STRING, "pattern": "^-?[0-9]+$"},
-    "fraction_text": {"description": "An exact fraction as text: `5`, `5/2`.", **STRING, "pattern": _FRACTION},
+    "fraction_text": {
+        "description": "An exact integer or fraction as text: `5`, `5/2`.",
+        **STRING,
+        "pattern": _FRACTION,
+    },
     "number_text": {
         "description": "An exact number as text: `5`, `0.1`, or `7/3` if the decimals never end.",
         **STRING,
@@ -143,7 +149,11 @@ DEFINITIONS: Mapping[str, Schema] = {
     "comparison": {
         "description": "A variant axis or a point against constants.",
         **record(
-            ("of", "The variant axis, compared by names of values; or the point, compared by raw number.", STRING),
+            (
+                "of",
+                "The variant axis, compared with names of its values; or the point, compared by its raw number.",
+                STRING,
+            ),
             ("is", "How they are compared; `in` takes a list.", one_of("==", "!=", "<", "<=", ">", ">=", "in")),
             (
                 "than",

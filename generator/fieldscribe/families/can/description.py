@@ -18,7 +18,9 @@ KEYS = (
         required=True,
     ).takes(["request"], DIRECTION),
     Key("answers", MESSAGE, "The message that this one answers.").takes(["read_request"], NAMED),
-    Key("can_id", MESSAGE, "The identifier, perhaps `+ unit`.").takes(["33Fh", "320h + unit"], Whole(), Text(80)),
+    Key("can_id", MESSAGE, "The identifier: a number, or a number `+ unit`.").takes(
+        ["33Fh", "320h + unit"], Whole(), Text(80)
+    ),
     Key(
         "layout",
         MESSAGE,
@@ -28,10 +30,14 @@ KEYS = (
         [{"0": "FFh", "1": "unit", "2..3": "address", "4..5": "raw", "6..7": "xor 0..5"}],
         by(forms.BITS, ValueShape("What these bytes hold.", ["FFh", "xor 0..5"], Whole(), Text(40)), least=1),
     ),
-    Key("length", MESSAGE, "With signals: its bytes; 8 by default, more take CAN FD.").takes([8], Whole(0, LONGEST)),
+    Key("length", MESSAGE, "With signals: the number of bytes; 8 by default, more take CAN FD.").takes(
+        [8], Whole(0, LONGEST)
+    ),
     Key("identifier_bits", MESSAGE, "The bits of the identifier if they are not those of the bus.").takes([29], _BITS),
     Key("every", MESSAGE, "How often it is sent.").takes(["100 ms"], Text(40)),
-    Key("pgn", MESSAGE, "J1939: parameter group, in place of `can_id`.").takes([61444, "0F004h"], Whole(), Text(40)),
+    Key("pgn", MESSAGE, "J1939: the parameter group, in place of `can_id`.").takes(
+        [61444, "0F004h"], Whole(), Text(40)
+    ),
     Key("priority", MESSAGE, "J1939: the priority; 6 by default.", needs=("pgn",)).takes([3], Whole(0, 7)),
     Key("source_address", MESSAGE, "J1939: who sends it: a number, or `unit`; 0 by default.", needs=("pgn",)).takes(
         ["unit", 0], Whole(0, 255), Text(40)

@@ -16,7 +16,9 @@ KEYS = (
     Key("responses", BUS, "USS: the response ids with the tasks that they answer.").takes(
         [{"1": {"name": "value", "answers": [1, 2, 14]}}], CODES
     ),
-    Key("pkw", FRAME, "USS: the length of the parameter part of the link; 127 (variable) unless said.").takes([4], PKW),
+    Key(
+        "pkw", FRAME, "USS: the length of the parameter part that the link is set to; 127 (variable) unless said."
+    ).takes([4], PKW),
 )
 
 

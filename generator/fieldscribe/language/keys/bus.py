@@ -53,7 +53,9 @@ KEYS = (
             ),
         ),
     ),
-    Key("timing", BUS, "Times as in the manual. A number, and a time in ms or s at the start, are macros in C.").takes(
+    Key(
+        "timing", BUS, "Times as the manual gives them. A number, and a time in ms or s at the start, are macros in C."
+    ).takes(
         [{"silent_characters": 3.5, "response_delay": "0..1000 ms"}],
         by(forms.ANY, ValueShape("A time in words.", ["0..1000 ms"], Text(200), NUMBER)),
     ),

@@ -16,7 +16,9 @@ _PROPERTY = ValueShape(
 _GIVEN = Place().means("One number.", [{"range": "1..15"}])
 _FOUND = Place().means("One chain of blocks.", [{"text": "SunS", "at": [40000, 0, 50000], "then": ["id", "length"]}])
 _HELD = ValueShape("One of several.", [3], Whole(), Text(250))
-_VALUE = Place(by_form={forms.ANY: _PROPERTY}).means("A value, and its properties.", [{"title": "200 V class"}])
+_VALUE = Place(by_form={forms.ANY: _PROPERTY}).means(
+    "One value of the axis, and its properties.", [{"title": "200 V class"}]
+)
 
 HEADS = (
     Key("fieldscribe", DEVICE, "The version of the language.", required=True).takes([1], Whole(choices=(1,))),
@@ -57,7 +59,9 @@ HEADS = (
         [{"models": {"text": "SunS", "at": [40000, 0, 50000], "then": ["id", "length"]}}],
         by(forms.NAME, _FOUND.shape, least=1),
     ),
-    Key("text", _FOUND, "Text before the first block, two characters a word.", required=True).takes(["SunS"], Text(16)),
+    Key("text", _FOUND, "The text before the first block, two characters a word.", required=True).takes(
+        ["SunS"], Text(16)
+    ),
     Key("at", _FOUND, "The addresses where it may stand, in the order of the search.", required=True).takes(
         [[40000, 0, 50000]], Items(ValueShape("An address.", [40000], Whole(), Text(40)), 1)
     ),

@@ -16,7 +16,9 @@ from fieldscribe.language.keys.places import (
 )
 from fieldscribe.schema_types import BOOLEAN, NOTHING, NUMBER, Items, Key, Text, ValueShape, Whole, by, one_of
 
-_SAID = by(forms.ANY, ValueShape("The value in the unit, or the name of an entry.", [50.0], Text(80), NUMBER, BOOLEAN))
+_SAID = by(
+    forms.ANY, ValueShape("The value in the unit, or the name of an enum entry.", [50.0], Text(80), NUMBER, BOOLEAN)
+)
 _VALUE = (Text(), NUMBER, Items(PRINTED_NUMBER), NOTHING)
 
 KEYS = (
@@ -41,7 +43,12 @@ KEYS = (
         "`by caller` (the default). Only the first two need no call.",
         needs=("steps",),
     ).takes(["first", "every 10 s"], Text(form=forms.RUN)),
-    Key("arguments", COMMAND, "The numbers that the caller chooses, by name, with ranges.", needs=("steps",)).takes(
+    Key(
+        "arguments",
+        COMMAND,
+        "The numbers that the caller chooses, by name, each with its range.",
+        needs=("steps",),
+    ).takes(
         [{"unit": "1..32"}],
         by(forms.NAME, ValueShape("The least and the greatest number.", ["1..32"], Text(64), Whole())),
     ),
@@ -55,11 +62,18 @@ KEYS = (
         "Values to write, by point: as under `says` of a worked example. Points of one step follow each other. A raw "
         "number may be a formula of arguments.",
     ).takes([{"A020": 50.0}, {"slave.raw": "unit"}], _SAID),
-    Key("words", STEP, "Words (or bits) to write at `at`: numbers, and formulas of one argument.", needs=("at",)).takes(
+    Key(
+        "words",
+        STEP,
+        "The words (or bits) to write at `at`: numbers, and formulas of one argument each.",
+        needs=("at",),
+    ).takes(
         [["unit", 2, "65535 - unit"]],
         Items(ValueShape("A number, or a formula of an argument.", ["65535 - unit", 2], Whole(), Text(200)), 1),
     ),
-    Key("wait", STEP, "Values to wait for before the next step.", needs=("within",)).takes([{"result": 0}], _SAID),
+    Key("wait", STEP, "Values that points must reach before the next step.", needs=("within",)).takes(
+        [{"result": 0}], _SAID
+    ),
     Key("within", STEP, "The longest time to wait.", needs=("wait",)).takes(["2 s"], Text(form=forms.TIME)),
     Key("when", STEP, "The step is skipped if this is false: a condition, written like `when` of a point.").takes(
         ["unit_mode == celsius"], Text(500)
@@ -102,7 +116,9 @@ KEYS = (
         Text(1000),
         by(forms.ANY, ValueShape("The printed value.", [4219], *_VALUE), least=1),
     ),
-    Key("taken", ERRATUM, "Taken instead: the same keys with the right values, or a sentence.", required=True).takes(
+    Key(
+        "taken", ERRATUM, "What was taken instead: the same keys with the right values, or a sentence.", required=True
+    ).takes(
         [{"wire": 4119}, "documented only"],
         Text(1000),
         by(forms.ANY, ValueShape("The value taken.", [4119], *_VALUE), least=1),

@@ -48,7 +48,11 @@ KEYS = (
         "highest bit and the magnitude in the others (s types).",
         of=WHOLE_NUMBERS,
     ).takes(["bcd", "sign and magnitude"], one_of("bcd", "sign and magnitude")),
-    Key("notation", FACTS, "How people write bytes (hex by default), or the date from which a number counts.").takes(
+    Key(
+        "notation",
+        FACTS,
+        "How people write bytes, hex by default; or the date from which a whole number counts seconds.",
+    ).takes(
         ["ipv4", "ipv6", "eui48", "eui64", "hex", "version", "version of nibbles", "time since 1970-01-01"],
         Text(form=forms.NOTATION),
     ),
@@ -140,7 +144,9 @@ KEYS = (
         "has only some of its bits.",
         of=WHOLE_NUMBERS,
     ).takes([{"0": "ready", "3": {"name": "fault", "active": 0}}], by(forms.BITS, places.FLAG.shape, least=1)),
-    Key("characters", FACTS, "How many characters a text has; at most 500 words.", of=TEXTS).takes([16], Whole(1)),
+    Key("characters", FACTS, "The number of characters of a text; it has at most 500 words.", of=TEXTS).takes(
+        [16], Whole(1)
+    ),
     Key(
         "encoding",
         _OF_TEXTS,
@@ -162,7 +168,9 @@ KEYS = (
     ).takes(["00h"], one_of("20h", "00h")),
     Key("digits", FACTS, places.DIGITS.shape, of=WHOLE_NUMBERS),
     Key("fixed", FACTS, places.FIXED.shape, of=WHOLE_NUMBERS),
-    Key("changes_with", FACTS, "Points whose writes change this one: as a factor, it is read again after them.").takes(
+    Key(
+        "changes_with", FACTS, "Points whose writes change this one: as a run-time factor it is read again after them."
+    ).takes(
         [["transformer_primary"]], Items(ValueShape("A point by code or name.", ["transformer_primary"], Text(80)), 1)
     ),
     Key(

@@ -24,14 +24,22 @@ KEYS = (
         "The number of decimals that are shown: rounded to nearest, halves away from zero, with zeros at the end.",
         required=True,
     ).takes([2], Whole(0, 12)),
-    Key("when", places.CASE, "A point compared with a constant.", required=True).takes(["unit_mode == 0"], Text(200)),
-    Key("rule", places.CASE, "The rule if `when` is true.", required=True).takes(["raw = value * 100"], Text(500)),
+    Key("when", places.CASE, "A comparison of a point with a constant.", required=True).takes(
+        ["unit_mode == 0"], Text(200)
+    ),
+    Key("rule", places.CASE, "The rule if the comparison is true.", required=True).takes(
+        ["raw = value * 100"], Text(500)
+    ),
     Key("quantity", places.ENTRY, "The quantity that the number stands for.").takes(["0.37 kW", "100 ms"], Text(80)),
     Key("no_value", places.SPECIAL_CODE, "The code means that there is no value.").takes(["yes"], *YES_NO),
-    Key("writable", places.SPECIAL_CODE, "The code may be written; by default only read.").takes(["yes"], *YES_NO),
+    Key("writable", places.SPECIAL_CODE, "The code may be written; by default it is only read.").takes(
+        ["yes"], *YES_NO
+    ),
     *(Key(name, places.TYPES, places.OF_TYPE.shape) for name in TYPES if name not in ("bit", "text")),
     Key("text", places.TYPES, places.OF_TEXTS.shape),
-    Key("active", places.FLAG, "The bit's value that makes the name true; 0 for an inverted bit.").takes([0], _ONE_BIT),
+    Key("active", places.FLAG, "The value of the bit that makes the name true; 0 for an inverted bit.").takes(
+        [0], _ONE_BIT
+    ),
     Key("zero", places.FLAG, "What 0 means, in words.").takes([{"en": "not ready"}], *in_words("nicht bereit")),
     Key("one", places.FLAG, "What 1 means, in words.").takes([{"en": "ready"}], *in_words("bereit")),
     Key(
@@ -56,5 +64,7 @@ KEYS = (
         places.LOOKED_THROUGH,
         "If the lines hold facts too: the numbers in them that are no facts. The audit ignores these.",
     ).takes([[1, 2, "1028h"]], Items(PRINTED_NUMBER, 1)),
-    Key("why", places.LOOKED_THROUGH, "What they are about, in short.", required=True).takes(["Wiring."], Text(500)),
+    Key("why", places.LOOKED_THROUGH, "What the lines are about, in a few words.", required=True).takes(
+        ["Wiring."], Text(500)
+    ),
 )

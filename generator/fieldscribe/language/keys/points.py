@@ -30,7 +30,9 @@ WHICH = (
     Key("code", Places(*POINTS, USE, inherited=(USE,)), "The manual's own short name.", identity=True).takes(
         ["A020"], Text(40)
     ),
-    Key("record", (POINT, USE), "One of `records`; `at` is its base.", identity=True).takes(["trip"], NAMED),
+    Key("record", (POINT, USE), "The name of one of `records`; `at` is its base.", identity=True).takes(
+        ["trip"], NAMED
+    ),
     Key(
         "at",
         (POINT, SET, VARIANT, USE, MEMBER),
@@ -52,7 +54,9 @@ WHICH = (
         needs=("record",),
         identity=True,
     ).takes([{"error": {"line": 701}}], by(forms.NAME, MEMBER.shape)),
-    Key("bits", POINT, "The bits of the word that it has, if not all.").takes(["15..14", 3], Text(20), Whole()),
+    Key("bits", POINT, "The bits of the word that belong to this point, if it does not have all.").takes(
+        ["15..14", 3], Text(20), Whole()
+    ),
     Key("space", POINT, "The address space, if it differs from the group's.").takes(["coil"], Text(40)),
     Key(
         "sets",
@@ -103,8 +107,12 @@ WHICH = (
         [{"speed": {"when": "mode == 1", "unit": "rpm"}, "torque": {"when": "mode == 2", "unit": "%"}}],
         by(forms.NAME, VARIANT.shape, least=1),
     ),
-    Key("view_of", POINT, "A point that has the same words, or some; both always exist.").takes(["outputs"], Text(80)),
-    Key("was", POINT, "Former names; each stays as a deprecated alias.").takes([["main_frequency"]], Items(NAME, 1)),
+    Key("view_of", POINT, "Another point that has the same words, or some of them; both always exist.").takes(
+        ["outputs"], Text(80)
+    ),
+    Key("was", POINT, "Former names; each stays usable as a deprecated alias.").takes(
+        [["main_frequency"]], Items(NAME, 1)
+    ),
     Key("title", (DEVICE, GROUP, *POINTS, USE, *_TITLED), TITLE, required=(DEVICE,), identity=True),
     Key("note", (DEVICE, GROUP, *POINTS, USE, places.BUS, places.COMMAND), NOTE),
     Key("document", places.SOURCE, "One of the documents that device.yaml names.").takes(["manual"], Text()),
@@ -113,7 +121,9 @@ WHICH = (
         Places(*POINTS, USE, *_NAMED, places.BUS, places.SOURCE, inherited=(USE,)),
         "The line in the text extracted from the manual.",
     ).takes([780], Whole(1, LAST_LINE)),
-    Key("section", _CITING, "The manual's section; quote it if it looks like a number.").takes(["4.2.10"], Text(200)),
+    Key("section", _CITING, "The section of the manual; quote it if it looks like a number.").takes(
+        ["4.2.10"], Text(200)
+    ),
     Key("page", _CITING, "The printed page number.").takes([21], Whole(), Text()),
     Key("lines", Places(*FACTS, USE, places.CODE, *CITED, places.ERRATUM, inherited=(USE,)), places.LINES.shape),
     Key("printed", POINTS, places.PRINTED.shape, identity=True),
@@ -150,7 +160,9 @@ USING = (
         "When the device uses a written value: `at once` (the default), or only `after a restart`.",
     ).takes(["after a restart"], one_of("at once", "after a restart")),
     Key(
-        "write_with", FACTS, "Points that must be written together with this one: all are written in one request."
+        "write_with",
+        FACTS,
+        "Points that must be written together with this one: all are written in one request.",
     ).takes([["minute", "second"]], Items(ValueShape("A point by code or name.", ["minute"], Text(80)), 1)),
     Key("when", _EVERYWHERE, "The point exists only if this is true: comparisons joined by and, or, not.").takes(
         ["phases >= 2 and meter != none"], Text(500)
@@ -172,6 +184,8 @@ USING = (
         "Where the facts come from: compared with the manual (the default), `imported` and compared by nobody, or seen "
         "on `hardware`.",
     ).takes(["imported"], one_of("manual", "imported", "hardware")),
-    Key("reserved", Places(GROUP, *POINTS, inherited=(GROUP,)), "Reserved by the maker.").takes(["yes"], *YES_NO),
+    Key("reserved", Places(GROUP, *POINTS, inherited=(GROUP,)), "The maker reserves this address.").takes(
+        ["yes"], *YES_NO
+    ),
 )
 """The keys that say how a point may be used, and when it exists."""
