@@ -10,7 +10,7 @@ from fieldscribe.families.frame_results import FrameResult
 from fieldscribe.families.modbus import exchange as modbus
 from fieldscribe.families.modbus import profile_of
 from fieldscribe.families.uss import telegrams as uss
-from fieldscribe.families.uss.parts import Link
+from fieldscribe.families.uss.telegrams import Link
 from fieldscribe.model import Device
 from fieldscribe.targets.vectors.collection import collect
 from support.asked import asked as chosen

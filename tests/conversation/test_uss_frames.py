@@ -13,8 +13,7 @@ from fieldscribe.conversation.lookup import find
 from fieldscribe.conversation.selection import choose_point, choose_variants
 from fieldscribe.families.frame_results import FrameResult, Options
 from fieldscribe.families.uss.frame_decoder import UssFrameDecoder
-from fieldscribe.families.uss.parts import Link
-from fieldscribe.families.uss.telegrams import Request, parse, telegram
+from fieldscribe.families.uss.telegrams import Link, Request, parse, telegram
 from fieldscribe.user_errors import UnclearError
 from hypothesis import given
 from hypothesis import strategies as st

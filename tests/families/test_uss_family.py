@@ -7,8 +7,17 @@ from pathlib import Path
 
 import pytest
 from fieldscribe.families.uss import UssBus, of_bus
-from fieldscribe.families.uss.parts import Link, default_link, parameter_words
-from fieldscribe.families.uss.telegrams import Request, broadcast, build, check_byte, parse, telegram
+from fieldscribe.families.uss.telegrams import (
+    Link,
+    Request,
+    broadcast,
+    build,
+    check_byte,
+    default_link,
+    parameter_words,
+    parse,
+    telegram,
+)
 from fieldscribe.model import Bus, Code
 from hypothesis import given
 from hypothesis import strategies as st

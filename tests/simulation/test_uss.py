@@ -8,9 +8,8 @@ from typing import Any
 
 import pytest
 from fieldscribe.arithmetic.words import words_in
-from fieldscribe.families.uss.parts import Link
 from fieldscribe.families.uss.simulation import core_of
-from fieldscribe.families.uss.telegrams import Request, broadcast, build, parse, telegram
+from fieldscribe.families.uss.telegrams import Link, Request, broadcast, build, parse, telegram
 from fieldscribe.simulation.behaviour import Behaviour
 from fieldscribe.simulation.bench import layout_of, rules_of
 from fieldscribe.simulation.device import Clock, SimulatedDevice

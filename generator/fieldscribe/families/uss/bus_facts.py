@@ -5,7 +5,14 @@ from collections.abc import Iterator
 from fieldscribe.facts.schema import INTEGER, list_of, map_of, null_or
 from fieldscribe.facts.table import BEHAVIOUR, DOCS, WIRE, Fact, family_facts
 from fieldscribe.families.uss import UssBus, UssFrame, of_bus
-from fieldscribe.families.uss.parts import EEPROM_TASKS, READ_TASK, RESPONSE_WIDTHS, TASK_WIDTHS, VARIABLE, write_task
+from fieldscribe.families.uss.telegrams import (
+    EEPROM_TASKS,
+    READ_TASK,
+    RESPONSE_WIDTHS,
+    TASK_WIDTHS,
+    VARIABLE,
+    write_task,
+)
 from fieldscribe.model import Bus, Point
 from fieldscribe.wording.exact import hex_text
 

@@ -9,17 +9,23 @@ from fieldscribe.checks import frames_agree
 from fieldscribe.checks.coexistence import report_missing
 from fieldscribe.checks.frames_agree import Seen, Words
 from fieldscribe.families.uss import FAMILY, of_bus, of_frame
-from fieldscribe.families.uss.parts import MASKS, READ_TASK, SHORT, VARIABLE, Link, part_of, write_task
 from fieldscribe.families.uss.remarks import words_printed
 from fieldscribe.families.uss.telegrams import (
     LEAST_BYTES,
+    MASKS,
+    READ_TASK,
+    SHORT,
+    VARIABLE,
+    Link,
     Request,
     answer_in,
     broadcast,
     build,
     check_byte,
     parse,
+    part_of,
     request_in,
+    write_task,
 )
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Code, Frame, Named, Point

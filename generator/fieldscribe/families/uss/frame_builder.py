@@ -5,9 +5,17 @@ from dataclasses import replace
 from fieldscribe.arithmetic.codec import Settings
 from fieldscribe.arithmetic.words import with_fixed, words_in, words_of
 from fieldscribe.families.frame_results import BuiltFrames, Options, WriteMethod, refused
-from fieldscribe.families.uss.parts import READ_TASK, VARIABLE, Link, default_link, link_of, write_task
 from fieldscribe.families.uss.remarks import code_text, titled_code, words_printed
-from fieldscribe.families.uss.telegrams import Request, build
+from fieldscribe.families.uss.telegrams import (
+    READ_TASK,
+    VARIABLE,
+    Link,
+    Request,
+    build,
+    default_link,
+    link_of,
+    write_task,
+)
 from fieldscribe.model import Device, Point
 from fieldscribe.text import line
 from fieldscribe.user_errors import RefusedError, UnclearError

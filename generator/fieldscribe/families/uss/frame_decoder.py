@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from fieldscribe.families.decoded_frame import DecodedFrame, Element, Masks, OpenRequests, ProcessData
 from fieldscribe.families.frame_results import FrameResult, Options
-from fieldscribe.families.uss import of_bus, parts, remarks
+from fieldscribe.families.uss import of_bus, remarks, telegrams
 from fieldscribe.families.uss.telegrams import Request, Unwrapped, answer_in, bare_words, frames_in, request_in, unwrap
 from fieldscribe.model import Device
 from fieldscribe.pasted_numbers import rejoined, typed_bytes
@@ -17,7 +17,9 @@ _ANSWERS = ("ok", "refused", "no_rights", "no_answer")
 class UssFrameDecoder:
     """Decodes the telegrams of one device, with the settings of its link."""
 
-    def __init__(self, device: Device, link: parts.Link, framing: str = "uss", direction: str | None = None) -> None:
+    def __init__(
+        self, device: Device, link: telegrams.Link, framing: str = "uss", direction: str | None = None
+    ) -> None:
         self._device = device
         self._link = link if framing == "uss" else replace(link, pzd=0)
         self._framing = framing
@@ -70,14 +72,14 @@ class UssFrameDecoder:
 
     def _could_answer(self, words: tuple[int, ...]) -> bool:
         """Return True if these words carry values when read as a request: they could be a response instead."""
-        part = parts.part_of(parts.split(words, self._link, request=True).part)
+        part = telegrams.part_of(telegrams.split(words, self._link, request=True).part)
         return part is not None and any(part.values) and part.code != 0
 
     def _request(self, base: FrameResult, words: tuple[int, ...]) -> DecodedFrame:
-        divided = parts.split(words, self._link, request=True)
+        divided = telegrams.split(words, self._link, request=True)
         if not divided.fits:
             base = base._replace(faults=(*base.faults, remarks.misfit_text(len(words), self._link, request=True)))
-        part, data = parts.part_of(divided.part), ProcessData("request", divided.words)
+        part, data = telegrams.part_of(divided.part), ProcessData("request", divided.words)
         unit = base.unit or 0
         if part is None:
             kind, text = ("request", "request, process data") if self._link.pkw == 0 else ("unreadable", "not readable")
@@ -101,12 +103,12 @@ class UssFrameDecoder:
     def _response(
         self, base: FrameResult, words: tuple[int, ...], open_request: Request | None, status: str
     ) -> DecodedFrame:
-        divided = parts.split(words, self._link, request=False)
+        divided = telegrams.split(words, self._link, request=False)
         if not divided.fits:
             base = base._replace(faults=(*base.faults, remarks.misfit_text(len(words), self._link, request=False)))
         elif status and status not in _ANSWERS:
             base = base._replace(faults=(*base.faults, no_answer_text(status)))
-        part, data = parts.part_of(divided.part), ProcessData("response", divided.words)
+        part, data = telegrams.part_of(divided.part), ProcessData("response", divided.words)
         answers = status != "no_answer"
         if part is None:
             result = base._replace(kind="reply", summary=f"{base.summary}: reply, process data")
@@ -114,21 +116,21 @@ class UssFrameDecoder:
         response = remarks.code_text(self._device.bus.codes("responses"), part.code, "response")
         text, details = self._element_and_details(part, "response")
         result = base._replace(kind="reply", summary=f"{base.summary}: reply, {response}{text}", details=details)
-        if part.code in (parts.REFUSED, parts.NO_RIGHTS):
+        if part.code in (telegrams.REFUSED, telegrams.NO_RIGHTS):
             result = self._refusal(result._replace(refusal=f"{response}{text}"), part, open_request)
-        width = parts.RESPONSE_WIDTHS.get(part.code, 0)
+        width = telegrams.RESPONSE_WIDTHS.get(part.code, 0)
         element = Element(
             part.parameter,
             part.index,
             width,
             part.value(width, self._link),
             part.values,
-            refused=part.code in (parts.REFUSED, parts.NO_RIGHTS),
-            counts=part.code == parts.SIZE,
+            refused=part.code in (telegrams.REFUSED, telegrams.NO_RIGHTS),
+            counts=part.code == telegrams.SIZE,
         )
         return DecodedFrame(result, (element, data) if part.code else (data,), base.unit, answers=answers)
 
-    def _element_and_details(self, part: parts.Part, key: str) -> tuple[str, dict[str, object]]:
+    def _element_and_details(self, part: telegrams.Part, key: str) -> tuple[str, dict[str, object]]:
         """Return the element of a parameter part in words, and the part as details for JSON."""
         if not part.code:
             return "", {key: part.code}
@@ -136,9 +138,9 @@ class UssFrameDecoder:
         details: dict[str, object] = {key: part.code, "parameter": part.parameter, "index": part.index}
         return f", {element_text(part.parameter, part.index, alone=alone)}", details
 
-    def _refusal(self, base: FrameResult, part: parts.Part, open_request: Request | None) -> FrameResult:
+    def _refusal(self, base: FrameResult, part: telegrams.Part, open_request: Request | None) -> FrameResult:
         """Return the result of a response that refuses the request, with the way it refuses."""
-        if part.code == parts.NO_RIGHTS or not part.values:
+        if part.code == telegrams.NO_RIGHTS or not part.values:
             return base._replace(kind="exception")
         error, task = part.values[0], None if open_request is None else open_request.task
         why = remarks.titled_code(self._device.bus.exceptions, error, "error")
@@ -165,14 +167,14 @@ class UssFrameDecoder:
 def decoder_of(device: Device, options: Options) -> UssFrameDecoder:
     """Return the decoder for the telegrams of the device. Raises UnclearError."""
     return UssFrameDecoder(
-        device, parts.link_of(device, options), options.framing or "uss", options.own.get("direction")
+        device, telegrams.link_of(device, options), options.framing or "uss", options.own.get("direction")
     )
 
 
 def _broadcast(base: FrameResult, words: tuple[int, ...]) -> DecodedFrame:
     """Return the result of a broadcast: four words of masks, then process data."""
     result = base._replace(kind="broadcast", summary=f"{base.summary}: broadcast, no unit answers")
-    if len(words) < parts.MASKS:
-        fault = f"a broadcast starts with {parts.MASKS} words of masks, here are {len(words)}"
+    if len(words) < telegrams.MASKS:
+        fault = f"a broadcast starts with {telegrams.MASKS} words of masks, here are {len(words)}"
         return DecodedFrame(result._replace(faults=(*result.faults, fault)))
-    return DecodedFrame(result, (Masks(words[: parts.MASKS]), ProcessData("request", words[parts.MASKS :])))
+    return DecodedFrame(result, (Masks(words[: telegrams.MASKS]), ProcessData("request", words[telegrams.MASKS :])))

@@ -9,9 +9,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.families.frame_results import FrameResult
-from fieldscribe.families.uss import parts
-from fieldscribe.families.uss.parts import VARIABLE, default_link
-from fieldscribe.families.uss.telegrams import LEAST_BYTES, START, check_byte
+from fieldscribe.families.uss import telegrams
+from fieldscribe.families.uss.telegrams import LEAST_BYTES, START, VARIABLE, check_byte, default_link
 from fieldscribe.listening.chunks import BYTES, ByteCutter, Chunk, packet, serial_chunks
 from fieldscribe.listening.chunks import logged_bytes as chunk_of_text
 from fieldscribe.live.lines import SERIAL_KEYS, LineAddress, OpenLine
@@ -98,4 +97,4 @@ def receive(line: LineAddress) -> Iterator[Chunk]:
 def action(result: FrameResult) -> str:
     """Return the action of an exchange in a word."""
     task = result.details.get("task")
-    return "process data" if not task else "write" if task in parts.TASK_WIDTHS else "read"
+    return "process data" if not task else "write" if task in telegrams.TASK_WIDTHS else "read"

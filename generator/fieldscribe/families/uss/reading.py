@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 
 from fieldscribe.diagnostics import Report
 from fieldscribe.families.uss import UssBus, UssFrame, of_bus
-from fieldscribe.families.uss.parts import VARIABLE
+from fieldscribe.families.uss.telegrams import VARIABLE
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Bus, Code, Telegram, Variant
 from fieldscribe.resolve.bus import FamilyReader, codes_under, ends_of

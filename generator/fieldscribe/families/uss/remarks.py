@@ -2,8 +2,17 @@
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from fieldscribe.families.uss.parts import EEPROM_TASKS, TASK_WIDTHS, VARIABLE, Link, Part
-from fieldscribe.families.uss.telegrams import LEAST_BYTES, START, Unwrapped, check_byte
+from fieldscribe.families.uss.telegrams import (
+    EEPROM_TASKS,
+    LEAST_BYTES,
+    START,
+    TASK_WIDTHS,
+    VARIABLE,
+    Link,
+    Part,
+    Unwrapped,
+    check_byte,
+)
 from fieldscribe.model import Code, Device
 from fieldscribe.text import counted, line
 from fieldscribe.wording.frames import check_text, numbered, strange_unit, too_short

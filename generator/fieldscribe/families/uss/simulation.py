@@ -5,9 +5,8 @@ from dataclasses import dataclass
 
 from fieldscribe.arithmetic.words import split as words_of
 from fieldscribe.arithmetic.words import words_in
-from fieldscribe.families.uss import of_bus, parts
-from fieldscribe.families.uss.parts import Link, Part
-from fieldscribe.families.uss.telegrams import LEAST_BYTES, sound_size, telegram
+from fieldscribe.families.uss import of_bus, telegrams
+from fieldscribe.families.uss.telegrams import LEAST_BYTES, Link, Part, sound_size, telegram
 from fieldscribe.model import Point
 from fieldscribe.simulation.device import Refusal, SimulatedDevice, by_unit
 from fieldscribe.simulation.line import Answer, Core, cut_sound
@@ -19,9 +18,9 @@ _ALL = 255
 _NUMBERS = 2000
 """The parameter numbers of a page."""
 _NO_TASK, _NO_ANSWER = 0, 0
-_READS = {parts.READ_TASK: False, parts.READ_ELEMENT_TASK: True}
+_READS = {telegrams.READ_TASK: False, telegrams.READ_ELEMENT_TASK: True}
 _SIZE_TASK = 9
-_ARRAY_TASKS = frozenset({parts.READ_ELEMENT_TASK, 7, 8, 11, 12})
+_ARRAY_TASKS = frozenset({telegrams.READ_ELEMENT_TASK, 7, 8, 11, 12})
 _RESPONSES = {(1, False): 1, (2, False): 2, (1, True): 4, (2, True): 5}
 """The responses with values of so many words, of an element of an array or not."""
 _WORDS: Mapping[str, tuple[str, ...]] = {
@@ -77,7 +76,7 @@ class UssCore(Core):
         elif what == "function" and words:
             words[0] ^= 0x3000
         elif what == "exception" and len(words) > 2:
-            words[0], words[2] = words[0] & 0x0FFF | parts.REFUSED << 12, 17
+            words[0], words[2] = words[0] & 0x0FFF | telegrams.REFUSED << 12, 17
         return telegram(address, words)
 
 
@@ -100,7 +99,7 @@ class _Unit:
     def __init__(self, device: SimulatedDevice) -> None:
         self.device = device
         model = device.device
-        self._usual = parts.default_link(model.bus)
+        self._usual = telegrams.default_link(model.bus)
         self._settings = _setting(device, "pkw"), _setting(device, "pzd")
         self._taken = {each.direction: each.name for each in model.telegrams}
         self._tasks = {code.number for code in model.bus.functions}
@@ -122,20 +121,20 @@ class _Unit:
     def answer(self, words: tuple[int, ...]) -> Answer | None:
         """Return the answer to a telegram; None if its parts have other lengths than the link."""
         link = self.link(len(words))
-        divided = parts.split(words, link, request=True)
+        divided = telegrams.split(words, link, request=True)
         if not divided.fits:
             self.device.complain("length", f"a telegram has {len(words)} words, and the link is set otherwise")
             return None
         self.device.heard()
         self._take_words(dict(enumerate(divided.words)), 0xFFFF)
-        part = parts.part_of(divided.part)
+        part = telegrams.part_of(divided.part)
         result = _Result(_NO_ANSWER, ())
         if part is not None:
             try:
                 result = self._carried_out(part, divided.part[0] & 0x07FF, link)
             except Refusal as refusal:
                 error = self.device.refusals.get(refusal.kind, self._error(refusal.kind, part.code))
-                result = _Result(parts.REFUSED, (error,), refused=refusal.why)
+                result = _Result(telegrams.REFUSED, (error,), refused=refusal.why)
                 self.device.complain_of(refusal)
         head = () if part is None else (result.code << 12 | divided.part[0] & 0x07FF, divided.part[1])
         head = (0, 0) if part is not None and not result.code else head
@@ -144,10 +143,10 @@ class _Unit:
 
     def broadcast(self, words: tuple[int, ...]) -> Answer:
         """Take the process data that the masks select; nobody answers."""
-        if len(words) == parts.MASKS + self.link(len(words), parts.MASKS).pzd:
+        if len(words) == telegrams.MASKS + self.link(len(words), telegrams.MASKS).pzd:
             self.device.heard()
             which, bits = words[:2]
-            chosen = {at: word for at, word in enumerate(words[parts.MASKS :]) if which >> at + 1 & 1}
+            chosen = {at: word for at, word in enumerate(words[telegrams.MASKS :]) if which >> at + 1 & 1}
             if 0 in chosen:
                 held = self._held("request").get(0, 0)
                 chosen[0] = held & ~bits | chosen[0] & bits
@@ -193,15 +192,15 @@ class _Unit:
         task, array = part.code, part.code in _ARRAY_TASKS
         if task == _NO_TASK:
             return _Result(_NO_ANSWER, ())
-        width = parts.TASK_WIDTHS.get(task, 0)
+        width = telegrams.TASK_WIDTHS.get(task, 0)
         if task not in self._tasks or not (width or task in _READS or task == _SIZE_TASK):
             raise Refusal("task", f"task {task} is not implemented")
         elements = self._elements.get(part.parameter, {})
         if not elements or number >= _NUMBERS:
             raise Refusal("address", f"there is no parameter {part.parameter}")
         if task == _SIZE_TASK:
-            return _Result(parts.SIZE, (len(elements),))
-        if part.index == _ALL and link.pkw == parts.VARIABLE and not width:
+            return _Result(telegrams.SIZE, (len(elements),))
+        if part.index == _ALL and link.pkw == telegrams.VARIABLE and not width:
             return self._all_elements(part.parameter, elements, link, array=array)
         element = part.index if -1 not in elements else -1
         if element not in elements or (element == -1 and part.index > 1):
@@ -238,7 +237,7 @@ class _Unit:
             raise Refusal("read_only", f"{point.name} can only be read", point)
         if width != cells.size or value is None:
             raise Refusal("part", f"{point.name} has {cells.size} words, task {part.code} writes {width}", point)
-        self.device.write(cells.area, {cells.addresses[0]: value}, keep=part.code in parts.EEPROM_TASKS)
+        self.device.write(cells.area, {cells.addresses[0]: value}, keep=part.code in telegrams.EEPROM_TASKS)
 
     def _error(self, kind: str, task: int) -> int:
         """Return the number of the error for a kind of refusal: by its name, among those that the task can have."""
@@ -253,10 +252,10 @@ def _value_words(result: _Result, link: Link, has_part: bool) -> Iterator[int]:
     if not has_part:
         return
     values = result.values
-    if link.single_last and result.each == 1 and result.code not in (_NO_ANSWER, parts.REFUSED):
+    if link.single_last and result.each == 1 and result.code not in (_NO_ANSWER, telegrams.REFUSED):
         values = (0, *values)
     yield from values
-    least = parts.SHORT if link.pkw == parts.VARIABLE else link.pkw
+    least = telegrams.SHORT if link.pkw == telegrams.VARIABLE else link.pkw
     yield from (0 for _ in range(least - 2 - len(values)))
 
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 
 from fieldscribe.families import Codes
 from fieldscribe.families.uss import FAMILY, of_bus
-from fieldscribe.families.uss.parts import READ_ELEMENT_TASK, READ_TASK, write_task
+from fieldscribe.families.uss.telegrams import READ_ELEMENT_TASK, READ_TASK, write_task
 from fieldscribe.model import Code, Device, Point
 from fieldscribe.targets.c import frames
 from fieldscribe.targets.c.calls import Transfer

@@ -6,19 +6,25 @@ from typing import Any
 
 from fieldscribe.arithmetic.words import words_in
 from fieldscribe.families.uss import of_bus, of_frame
-from fieldscribe.families.uss.parts import (
+from fieldscribe.families.uss.telegrams import (
     DOUBLE_RESPONSES,
+    LAST_PARAMETER,
     MASKS,
     READ_TASK,
     SHORT,
     TASK_WIDTHS,
     VARIABLE,
     Link,
+    Request,
+    broadcast,
+    build,
     parameter_words,
+    parse,
     part_of,
+    request_in,
+    telegram,
     write_task,
 )
-from fieldscribe.families.uss.telegrams import LAST_PARAMETER, Request, broadcast, build, parse, request_in, telegram
 from fieldscribe.model import Bus, Device, Frame, Point
 from fieldscribe.targets.vectors.exchanges import (
     Example,
