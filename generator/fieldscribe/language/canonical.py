@@ -4,11 +4,6 @@ The text is split into pieces: signs, scalars and marks, each with the comments 
 them share a line, stay as the author wrote them. Mappings are indented by two. The dashes of a list stand below its
 key, further lines in brackets below the first piece inside. Texts get double quotes.
 """
-#
-# The order of the pieces, and which of them share a line, stay as the author wrote them. Mappings are indented by two.
-# The dashes of a list stand below its key, further lines in brackets below the first piece inside. Texts get double
-# quotes.
-# """
 
 import re
 from collections.abc import Iterator

@@ -3,10 +3,6 @@
 The checks are built from the table, each when a value first needs it. A test compares them with `jsonschema` on every
 description and every bad input.
 """
-#
-# The checks are built from the table, each when a value first needs it. A test compares them with `jsonschema` on every
-# description and every bad input.
-# """
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping

@@ -14,13 +14,16 @@ from fieldscribe.model import Device, Entry, Point
 from fieldscribe.targets.python.device import in_python
 from fieldscribe.targets.python.enums import reader
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, parameter, scope_of, word_attribute
-from fieldscribe.targets.runtime_calls.class_facts import class_facts, commands_of, members, readable_groups
-from fieldscribe.targets.runtime_calls.point_call import (
+from fieldscribe.targets.runtime_calls.calls import (
     attribute_of,
     call_of,
+    class_facts,
+    commands_of,
     fields_of,
+    members,
     old_attributes,
     old_names_of,
+    readable_groups,
     variants_call,
 )
 from fieldscribe.targets.runtime_calls.scope import Call, Hex, Name, Node, PointName, Scope

@@ -17,11 +17,10 @@ from fieldscribe.model import Device, Flag
 from fieldscribe.resources import render, templates_dir
 from fieldscribe.targets import rust
 from fieldscribe.targets.identifiers import clashes as found_clashes
-from fieldscribe.targets.rust.documentation import PointDoc, left_out
-from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.identifiers import identifiers
+from fieldscribe.targets.rust.layout import PointDoc, left_out
 from fieldscribe.targets.rust.literals import type_name
-from fieldscribe.targets.rust.subjects import CratePoint, scope_of
+from fieldscribe.targets.rust.scope import CratePoint, in_rust, scope_of
 from support.described import SHIPPED, kitchen_sink, shipped
 from support.made_once import made_once
 from support.models import changed, entry, point, sample_device, titles

@@ -5,8 +5,18 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from fieldscribe.targets.rust.documentation import wrapped
-from fieldscribe.targets.rust.layout import Item, assignment, binding, called, calls, chain, chained, comparison, filled
+from fieldscribe.targets.rust.layout import (
+    Item,
+    assignment,
+    binding,
+    called,
+    calls,
+    chain,
+    chained,
+    comparison,
+    filled,
+    wrapped,
+)
 from fieldscribe.targets.rust.literals import nearest_float
 from support.described import described, loaded_in
 from support.rust_crates import write_crate

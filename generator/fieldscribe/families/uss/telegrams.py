@@ -3,10 +3,6 @@
 The words of a telegram are the parameter part, with its task or response, and process data. Tasks and responses of the
 protocol, and the settings of a link, are listed here once; frames, checks and targets read these tables.
 """
-#
-# Tasks and responses of the protocol are listed here once; frames, checks and targets read these tables.
-# """
-# JOINED """USS telegrams: builds their bytes, and reads bytes as responses. Pure functions, no I/O."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

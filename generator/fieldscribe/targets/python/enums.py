@@ -11,7 +11,7 @@ from fieldscribe.resources import Render
 from fieldscribe.targets.placeholders import TextTemplates, placeholders
 from fieldscribe.targets.python.identifiers import Identifiers, word_attribute
 from fieldscribe.targets.python.layout import docstring, laid_out
-from fieldscribe.targets.runtime_calls.point_texts import entry_text, flag_text, sentence
+from fieldscribe.targets.runtime_calls.calls import entry_text, flag_text, sentence
 from fieldscribe.targets.runtime_calls.scope import Hex, Name, Node, call
 from fieldscribe.text import humanised, python_doc, upper
 

@@ -12,23 +12,24 @@ from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplates, placeho
 from fieldscribe.targets.python.device import RUNTIME, PythonFamily, in_python
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, scope_of, sorted_imports
 from fieldscribe.targets.python.layout import DOC, WIDTH, arguments, comment, docstring, laid_out, leaf, wrapped
-from fieldscribe.targets.runtime_calls.class_facts import class_facts, commands_of, members, readable_groups
-from fieldscribe.targets.runtime_calls.point_call import (
+from fieldscribe.targets.runtime_calls.calls import (
     attribute_of,
     call_of,
-    numbers_of,
-    old_attributes,
-    old_names_of,
-    variants_call,
-)
-from fieldscribe.targets.runtime_calls.point_expressions import NUMBERED, addresses_of
-from fieldscribe.targets.runtime_calls.point_texts import (
+    class_facts,
+    commands_of,
     end_texts,
     fields_of_texts,
     limits_text,
+    members,
+    numbers_of,
+    old_attributes,
+    old_names_of,
+    readable_groups,
     remarks_text,
     texts_of,
+    variants_call,
 )
+from fieldscribe.targets.runtime_calls.point_expressions import NUMBERED, addresses_of
 from fieldscribe.targets.runtime_calls.scope import Call, Scope
 from fieldscribe.text import python_doc, python_string
 from fieldscribe.wording import label, open_text

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator
 from fieldscribe.model import Device
 from fieldscribe.resources import Render, runtime_files
 from fieldscribe.targets.rust.identifiers import device_name_taken, identifiers
-from fieldscribe.targets.rust.subjects import scope_of
+from fieldscribe.targets.rust.scope import scope_of
 
 _SOURCES = ("points", "enums", "flags", "with")
 

@@ -7,14 +7,12 @@ from fieldscribe import wording
 from fieldscribe.model import Device, Point, Version
 from fieldscribe.resources import Render
 from fieldscribe.targets.identifiers import head_lines
-from fieldscribe.targets.rust.documentation import left_out, wrapped
 from fieldscribe.targets.rust.enums import enum_texts, word_texts
-from fieldscribe.targets.rust.families import RustFamily, Snippet, in_rust, space
-from fieldscribe.targets.rust.layout import Item, Lines, binding, filled
+from fieldscribe.targets.rust.layout import Item, Lines, binding, filled, left_out, wrapped
 from fieldscribe.targets.rust.literals import float_literal, integer
 from fieldscribe.targets.rust.point_facts import shared_codes
 from fieldscribe.targets.rust.point_macros import point_texts
-from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
+from fieldscribe.targets.rust.scope import CratePoint, CrateScope, RustFamily, Snippet, in_rust, space
 from fieldscribe.targets.rust.value_forms import argument_structs
 from fieldscribe.text import markdown, rust_code, rust_string, toml_string, upper
 

@@ -8,10 +8,9 @@ from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.model import Device, Entry, Enum, Flag
 from fieldscribe.resources import Render
 from fieldscribe.targets.placeholders import TextTemplates, placeholders
-from fieldscribe.targets.rust.documentation import sentence
-from fieldscribe.targets.rust.layout import Item, binding, called, calls, comparison, signature
+from fieldscribe.targets.rust.layout import Item, binding, called, calls, comparison, sentence, signature
 from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name, variant_name
-from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
+from fieldscribe.targets.rust.scope import CratePoint, CrateScope
 from fieldscribe.text import rust_string
 
 View = dict[str, Any]

@@ -5,9 +5,8 @@ from collections.abc import Iterator
 from fieldscribe.model import Device, Enum, Special
 from fieldscribe.targets.identifiers import Names, Owner
 from fieldscribe.targets.rust.enums import UNKNOWN, constant_name, getter_name
-from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.literals import RESERVED, type_name, variant_name
-from fieldscribe.targets.rust.subjects import CratePoint, scope_of
+from fieldscribe.targets.rust.scope import CratePoint, in_rust, scope_of
 from fieldscribe.text import upper
 
 CONSTANTS = frozenset(

@@ -4,10 +4,8 @@ from collections.abc import Iterator
 
 from fieldscribe.model import Bound, Limit, Point, Special
 from fieldscribe.targets.rust import literals
-from fieldscribe.targets.rust.documentation import sentence
-from fieldscribe.targets.rust.families import Constant
-from fieldscribe.targets.rust.layout import Item, Lines, binding, calls, filled
-from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
+from fieldscribe.targets.rust.layout import Item, Lines, binding, calls, filled, sentence
+from fieldscribe.targets.rust.scope import Constant, CratePoint, CrateScope
 from fieldscribe.targets.rust.value_forms import count_type, interval, limit_lines
 from fieldscribe.text import rust_string
 

@@ -9,13 +9,11 @@ from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.model import Point
 from fieldscribe.resources import Render
 from fieldscribe.targets.placeholders import TextTemplates, placeholders
-from fieldscribe.targets.rust.documentation import PointDoc
 from fieldscribe.targets.rust.enums import old_names_text
-from fieldscribe.targets.rust.families import in_rust, space_variant
-from fieldscribe.targets.rust.layout import filled
+from fieldscribe.targets.rust.layout import PointDoc, filled
 from fieldscribe.targets.rust.literals import integer, mask, raw_literal, type_name, type_range
 from fieldscribe.targets.rust.point_facts import code_lines, read_lines, write_lines
-from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
+from fieldscribe.targets.rust.scope import CratePoint, CrateScope, in_rust, space_variant
 from fieldscribe.targets.rust.value_forms import form_lines
 from fieldscribe.text import rust_code, rust_string
 from fieldscribe.wording import raw_range_text

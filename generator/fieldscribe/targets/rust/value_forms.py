@@ -10,11 +10,10 @@ from fieldscribe.grouping import grouped
 from fieldscribe.lowered import Lowered, Operand, Rule
 from fieldscribe.model import Limit, Linear, Point, ScaleCase, Text
 from fieldscribe.resources import Render
-from fieldscribe.targets.rust.documentation import wrapped
 from fieldscribe.targets.rust.enums import old_names_text
-from fieldscribe.targets.rust.layout import Lines, chained, fields_of, filled
+from fieldscribe.targets.rust.layout import Lines, chained, fields_of, filled, wrapped
 from fieldscribe.targets.rust.literals import integer, raw_type, type_range, value_name
-from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
+from fieldscribe.targets.rust.scope import CratePoint, CrateScope
 from fieldscribe.text import rust_string
 
 _COUNTS = {"i32": "i64", "u32": "i64", "i64": "i64", "u64": "i128"}

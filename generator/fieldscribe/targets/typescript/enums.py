@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.model import Device, Entry, Flag, Point
-from fieldscribe.targets.runtime_calls.point_texts import entry_text, flag_text, sentence
+from fieldscribe.targets.runtime_calls.calls import entry_text, flag_text, sentence
 from fieldscribe.targets.runtime_calls.scope import Call, Hex, Name, Node, call
 from fieldscribe.targets.typescript.identifiers import Identifiers, word_attribute
 from fieldscribe.targets.typescript.layout import Layout, doc_lines, lazily

@@ -8,12 +8,15 @@ from typing import NamedTuple
 
 from fieldscribe.model import Device, Point
 from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplates, placeholders
-from fieldscribe.targets.runtime_calls.class_facts import class_facts, commands_of, readable_groups
-from fieldscribe.targets.runtime_calls.point_call import call_of, numbers_of
-from fieldscribe.targets.runtime_calls.point_texts import (
+from fieldscribe.targets.runtime_calls.calls import (
+    call_of,
+    class_facts,
+    commands_of,
     end_texts,
     fields_of_texts,
     limits_text,
+    numbers_of,
+    readable_groups,
     remarks_text,
     texts_of,
 )

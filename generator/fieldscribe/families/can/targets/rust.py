@@ -7,11 +7,9 @@ from fieldscribe.families.can.frames import carriers, frame_count, request_and_a
 from fieldscribe.model import Device, Message, Role, Telegram
 from fieldscribe.targets.identifiers import Names, Owner
 from fieldscribe.targets.rust.conformance import item_row
-from fieldscribe.targets.rust.documentation import sentence
-from fieldscribe.targets.rust.families import RustFamily, Snippet, Table, code_names, constants
-from fieldscribe.targets.rust.layout import Item, Lines, array, assignment, binding
+from fieldscribe.targets.rust.layout import Item, Lines, array, assignment, binding, sentence
 from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name
-from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
+from fieldscribe.targets.rust.scope import CratePoint, CrateScope, RustFamily, Snippet, Table, code_names, constants
 from fieldscribe.text import rust_string
 
 _NUMBERED = ("unit", "address", "raw", "word")

@@ -4,9 +4,8 @@ from collections.abc import Iterator
 
 from fieldscribe.families.modbus import SPACES, framings_of, of_bus, profile_of
 from fieldscribe.model import Block, Bus, Code, Command, Device, SteppedCommand
-from fieldscribe.targets.rust.documentation import sentence
-from fieldscribe.targets.rust.families import RustFamily, code_names, space_variant
-from fieldscribe.targets.rust.layout import Item, Lines, array, binding, chain
+from fieldscribe.targets.rust.layout import Item, Lines, array, binding, chain, sentence
+from fieldscribe.targets.rust.scope import RustFamily, code_names, space_variant
 from fieldscribe.text import rust_code, rust_string
 from fieldscribe.wording.rules import run_text, steps_texts
 

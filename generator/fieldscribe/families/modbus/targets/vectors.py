@@ -3,10 +3,6 @@
 A base follows from given numbers, or a client finds its blocks. Each vector of one has the whole exchange that reads
 the set point, for languages whose devices find a base by themselves.
 """
-#
-# Each has the whole exchange that reads the set point, for languages whose devices find a base by themselves.
-# """
-# JOINED """Vectors of Modbus frames, commands, bases of addresses, and batched reads."""
 
 import itertools
 from collections.abc import Iterator, Mapping

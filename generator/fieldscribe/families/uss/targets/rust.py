@@ -5,11 +5,10 @@ from collections.abc import Iterator
 from fieldscribe.families.uss import of_bus
 from fieldscribe.model import Bus, Device
 from fieldscribe.targets.identifiers import Names, Owner
-from fieldscribe.targets.rust.conformance_rows import change_of, of_all, of_scale
-from fieldscribe.targets.rust.families import RustFamily, Way, code_names, constants
+from fieldscribe.targets.rust.conformance import change_of, of_all, of_scale
 from fieldscribe.targets.rust.layout import Item, array, binding
 from fieldscribe.targets.rust.literals import type_name
-from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
+from fieldscribe.targets.rust.scope import CratePoint, CrateScope, RustFamily, Way, code_names, constants
 
 _ERRORS_DOC = "Error values: why the drive refuses a task, as [`ReplyError::Refused`] has them."
 
