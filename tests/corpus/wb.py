@@ -11,7 +11,7 @@ from random import Random
 from typing import Any
 
 from fieldscribe.importing.readers import UnreadableError
-from fieldscribe.importing.wb import draft
+from fieldscribe.importing.wb import draft_template
 from fieldscribe.importing.wb.templates import read_template
 from jinja2 import FileSystemLoader
 from jinja2.sandbox import SandboxedEnvironment
@@ -33,7 +33,7 @@ def _draft(file: Path) -> Drafted | None:
         raise
     if template.get("deprecated") or template["device"].get("deprecated"):
         return None
-    drafted = draft(file, "device")
+    drafted = draft_template(file, "device")
     return Drafted(drafted.groups, drafted.head)
 
 

@@ -10,11 +10,21 @@ from typing import Any
 import pytest
 from fieldscribe import pipeline
 from fieldscribe.cli import main
-from fieldscribe.diagnostics import MOST_FINDINGS, Diagnostic, Report, Span
+from fieldscribe.diagnostics import (
+    MOST_FINDINGS,
+    Diagnostic,
+    Report,
+    Span,
+    as_data,
+    as_lines,
+    columns,
+    split_lines,
+    summary,
+    visible,
+)
 from fieldscribe.model import Device
 from fieldscribe.output import generation
 from fieldscribe.pipeline import TargetError
-from fieldscribe.report import as_data, as_lines, columns, split_lines, summary, visible
 from support.described import described, write
 
 FILES = {

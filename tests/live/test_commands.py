@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 from fieldscribe.cli import live_options, monitor
-from fieldscribe.live.devices import device_class
+from fieldscribe.live.connection import device_class
 from fieldscribe.live.writing import Write
 from fieldscribe.simulation import Simulated, simulated
 from fieldscribe_runtime import AnyDevice

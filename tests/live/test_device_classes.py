@@ -13,7 +13,7 @@ from types import BuiltinFunctionType, FunctionType, MethodType, ModuleType
 from typing import Any
 
 import pytest
-from fieldscribe.live.devices import device_class
+from fieldscribe.live.connection import device_class
 from fieldscribe.model import Device
 from fieldscribe.resources import use_python_runtime
 from support.described import SHIPPED, kitchen_sink, made, shipped
@@ -40,7 +40,7 @@ def test_other_devices_are_those_of_their_packages(device: Device, tmp_path: Pat
 
 PACKAGE = """
 from pathlib import Path
-from fieldscribe.live.devices import device_class, points_class
+from fieldscribe.live.connection import device_class, points_class
 from fieldscribe.pipeline import load_device
 from fieldscribe.diagnostics import Report
 

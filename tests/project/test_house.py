@@ -23,7 +23,7 @@ ROOMS = (
     (
         "words, places, files of the package",
         """__init__ user_errors pasted_numbers text grouping
-        diagnostics schema_types safe_files report resources""",
+        diagnostics schema_types safe_files resources""",
     ),
     ("the neutral model", "conditions model code_view"),
     ("exact arithmetic", "arithmetic"),
@@ -62,7 +62,7 @@ ROOMS = (
 
 NAMES_A_FAMILY = {
     "importing.wb.templates": "the protocols of a gateway",
-    "cli.import_dbc": "CAN databases are of one",
+    "cli.import_kinds": "CAN databases are of one",
     "importing.dbc": "CAN databases are of one",
     "listening.captures": "captures of CAN tools are of one",
     "user_errors": "a library of Python is called as one",
@@ -71,7 +71,6 @@ NAMES_A_FAMILY = {
     "language.keys.places": "examples of whole files and messages",
     "cli.simulate": "a line may be a bus of one",
     "simulation.bench": "a line may be a bus of one",
-    "simulation.library": "a line may be a bus of one",
     "simulation.servers": "a library of Python is called as one",
     "targets.python": "a library of Python is called as one",
     "targets.typescript.identifiers": "a package of npm is called as one",

@@ -20,8 +20,8 @@ from fieldscribe.families.can.dbc import export
 from fieldscribe.families.can.simulation import core_of
 from fieldscribe.simulation.bench import layout_of
 from fieldscribe.simulation.device import Clock, SimulatedDevice
-from fieldscribe.simulation.library import simulated
 from fieldscribe.simulation.line import Fault
+from fieldscribe.simulation.servers import simulated
 from support.places import PACKAGES, TESTS
 from support.python_package import imported
 from support.simulated_lines import DirectBus

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from fieldscribe.live.devices import device_class
+from fieldscribe.live.connection import device_class
 from fieldscribe.simulation import simulated
 from fieldscribe.simulation.bench import layout_of
 from fieldscribe.simulation.device import Clock, SimulatedDevice

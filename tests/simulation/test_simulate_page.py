@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 from fieldscribe.cli import main
-from fieldscribe.simulation.library import simulated
 from fieldscribe.simulation.line import KINDS
+from fieldscribe.simulation.servers import simulated
 from support.help_examples import stops_at_once
 from support.places import ROOT
 from support.python_package import imported

@@ -13,8 +13,8 @@ from fieldscribe.families.uss.telegrams import Link, Request, broadcast, build, 
 from fieldscribe.simulation.behaviour import Behaviour
 from fieldscribe.simulation.bench import layout_of, rules_of
 from fieldscribe.simulation.device import Clock, SimulatedDevice
-from fieldscribe.simulation.library import simulated
 from fieldscribe.simulation.line import Fault, Line, Stream
+from fieldscribe.simulation.servers import simulated
 from support.places import PACKAGES
 from support.python_package import imported
 from support.simulated_lines import direct_line

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from fieldscribe.live.devices import device_class
+from fieldscribe.live.connection import device_class
 from fieldscribe.simulation import Simulated, simulated
 from fieldscribe_runtime import FieldscribeError
 from fieldscribe_runtime.transports.tcp import TcpLine

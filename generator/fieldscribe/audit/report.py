@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from fieldscribe.audit.comparison import ChangedLine, CitedFact, Comparison
 from fieldscribe.audit.plain_audit import Audit, Missing, Unused
-from fieldscribe.report import Line, visible
+from fieldscribe.diagnostics import Line, visible
 
 _MOST_NUMBERS = 8
 """The most numbers of one place in a finding."""

@@ -204,7 +204,7 @@ def _parser(prog: str, description: str, epilog: str) -> ArgumentParser:
         """A parser that quotes arguments in messages as findings do: file names may hold control characters."""
 
         def error(self, message: str) -> NoReturn:
-            from fieldscribe.report import visible
+            from fieldscribe.diagnostics import visible
 
             super().error(visible(message))
 

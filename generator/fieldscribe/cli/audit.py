@@ -21,10 +21,9 @@ from fieldscribe.cli.common import (
     usage_error,
 )
 from fieldscribe.cli.terminal import print_lines
-from fieldscribe.diagnostics import Report
+from fieldscribe.diagnostics import Report, visible
 from fieldscribe.model import Document
 from fieldscribe.pipeline import load_analysis
-from fieldscribe.report import visible
 from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.safe_files import read_regular
 from fieldscribe.text import counted

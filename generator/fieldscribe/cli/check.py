@@ -8,10 +8,9 @@ from typing import Any
 
 from fieldscribe.cli.common import add_format, add_paths, description_paths, print_json, report_findings
 from fieldscribe.cli.terminal import FINDINGS, FINE
-from fieldscribe.diagnostics import Report
+from fieldscribe.diagnostics import Report, as_data
 from fieldscribe.model import Device
 from fieldscribe.pipeline import find_devices, is_new, load_analysis
-from fieldscribe.report import as_data
 from fieldscribe.text import counted
 
 EXAMPLE = """examples:

@@ -14,9 +14,8 @@ from typing import TYPE_CHECKING, Any, TextIO
 
 from fieldscribe import pipeline
 from fieldscribe.cli.terminal import FINDINGS, USAGE, print_lines
-from fieldscribe.diagnostics import Report
+from fieldscribe.diagnostics import Report, as_data, as_lines, split_lines, summary, visible
 from fieldscribe.pipeline import DEVICE_FILE, device_files_below, find_devices
-from fieldscribe.report import as_data, as_lines, split_lines, summary, visible
 from fieldscribe.resources import descriptions_dir
 from fieldscribe.safe_files import Inputs, read_regular
 from fieldscribe.text import shortened

@@ -5,8 +5,8 @@ from pathlib import Path
 
 from fieldscribe.cli.common import add_descriptions, add_format, open_device, print_json
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
+from fieldscribe.diagnostics import Line, visible
 from fieldscribe.live.snapshots import Difference, Held, Snapshot, compared, defaults, read_snapshot
-from fieldscribe.report import Line, visible
 
 EXAMPLE = """examples:
   fieldscribe compare before.json after.json

@@ -8,12 +8,11 @@ from pathlib import Path
 from fieldscribe.authoring.formatting import rewrite
 from fieldscribe.cli.common import StopError, description_paths, print_json, report_findings
 from fieldscribe.cli.terminal import print_lines
-from fieldscribe.diagnostics import Report
+from fieldscribe.diagnostics import Report, visible
 from fieldscribe.differences.aliases import with_aliases
 from fieldscribe.differences.changes import CLASSES, Comparison, as_data, compared
 from fieldscribe.differences.rendering import as_markdown, as_text
 from fieldscribe.differences.sides import EXPORT_HINT, opened
-from fieldscribe.report import visible
 
 EXAMPLE = """examples:
   fieldscribe diff HEAD~1:descriptions/hitachi_l200 descriptions/hitachi_l200

@@ -7,10 +7,9 @@ from pathlib import Path
 from fieldscribe.authoring.formatting import Formatting, MovedError, files_of, formatted
 from fieldscribe.cli.common import StopError, add_format, description_paths, print_json, report_findings, some_path
 from fieldscribe.cli.terminal import FINDINGS, FINE
-from fieldscribe.diagnostics import Report
+from fieldscribe.diagnostics import Report, as_data, visible
 from fieldscribe.language.nodes import MOST_BYTES
 from fieldscribe.pipeline import find_devices
-from fieldscribe.report import as_data, visible
 
 EXAMPLE = """examples:
   fieldscribe fmt

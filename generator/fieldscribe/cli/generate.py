@@ -5,11 +5,10 @@ from argparse import ArgumentParser, Namespace
 from pathlib import Path
 
 from fieldscribe.cli import common
-from fieldscribe.diagnostics import Report
+from fieldscribe.diagnostics import Report, as_data, visible
 from fieldscribe.output.memory import Memory
 from fieldscribe.output.writing import Result
 from fieldscribe.pipeline import find_devices
-from fieldscribe.report import as_data, visible
 from fieldscribe.targets import TARGETS
 
 EXAMPLE = """examples:

@@ -15,10 +15,10 @@ from fieldscribe.cli.live_options import (
     print_requests,
 )
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
+from fieldscribe.diagnostics import Line, visible
 from fieldscribe.live.connection import FieldscribeError
 from fieldscribe.live.lines import families_of
 from fieldscribe.model import Device
-from fieldscribe.report import Line, visible
 
 EXAMPLE = f"""examples:
   fieldscribe identify --line tcp://192.168.0.20

@@ -1,5 +1,5 @@
 # ruff: noqa: N999  # a command's module has the command's name
-"""`fieldscribe import`: draft a description from a file of another kind; modules `import_…` know the kinds."""
+"""`fieldscribe import`: draft a description from a file of another kind; `import_kinds` knows the kinds."""
 
 import re
 import sys
@@ -7,12 +7,20 @@ from argparse import ArgumentParser, Namespace
 from collections.abc import Callable
 from typing import NamedTuple
 
-from fieldscribe.cli import import_dbc, import_table, import_whole
 from fieldscribe.cli.common import Parser, StopError, some_path, write_draft
+from fieldscribe.cli.import_kinds import (
+    add_database_arguments,
+    add_model_arguments,
+    add_table_arguments,
+    from_database,
+    from_models,
+    from_tables,
+    from_template,
+)
 from fieldscribe.cli.terminal import FINDINGS, FINE
+from fieldscribe.diagnostics import visible
 from fieldscribe.importing.headings import ROLES
 from fieldscribe.importing.readers import UnreadableError
-from fieldscribe.report import visible
 
 EXAMPLE = f"""examples:
   fieldscribe import table registers.csv --device heat_pump --out heat_pump/device.yaml
@@ -41,18 +49,18 @@ class _Kind(NamedTuple):
 
 
 KINDS = {
-    "dbc": _Kind("CAN databases", import_dbc.from_database, import_dbc.add_arguments),
+    "dbc": _Kind("CAN databases", from_database, add_database_arguments),
     "table": _Kind(
         "tables of CSV, TSV, XLSX, Markdown, HTML, or the text of a manual",
-        import_table.from_tables,
-        import_table.add_arguments,
+        from_tables,
+        add_table_arguments,
     ),
     "sunspec": _Kind(
         "models of SunSpec: a file `model_103.json`, or a folder of them",
-        import_whole.from_models,
-        import_whole.add_arguments,
+        from_models,
+        add_model_arguments,
     ),
-    "wb": _Kind("a device template of wb-mqtt-serial: `.json`, `.json.jinja`", import_whole.from_template),
+    "wb": _Kind("a device template of wb-mqtt-serial: `.json`, `.json.jinja`", from_template),
 }
 
 

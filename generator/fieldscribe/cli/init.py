@@ -8,7 +8,7 @@ from pathlib import Path
 from fieldscribe.authoring.starting import QUESTIONS, NotStartedError, Question, start, startable, wrong_with
 from fieldscribe.cli.common import LOCAL, StopError, some_path
 from fieldscribe.cli.terminal import FINE
-from fieldscribe.report import visible
+from fieldscribe.diagnostics import visible
 
 EXAMPLE = """examples:
   fieldscribe init

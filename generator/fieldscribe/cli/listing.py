@@ -8,8 +8,8 @@ from fieldscribe import wording
 from fieldscribe.cli import common
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
 from fieldscribe.conversation.selection import points_by_name, present
+from fieldscribe.diagnostics import visible
 from fieldscribe.model import Device, Point
-from fieldscribe.report import visible
 from fieldscribe.search import summary_of
 from fieldscribe.text import csv_cell, line
 from fieldscribe.wording.exact import hex_text

@@ -11,9 +11,9 @@ from fieldscribe.cli.common import period, times
 from fieldscribe.cli.live_options import LINES, Live, add_live, add_points, add_unit, opened
 from fieldscribe.cli.read import style_of
 from fieldscribe.cli.terminal import FINE, is_coloured, print_lines, terminal_size
+from fieldscribe.diagnostics import Line, visible
 from fieldscribe.live.connection import FieldscribeError
 from fieldscribe.live.readings import Reader, Reading, chosen
-from fieldscribe.report import Line, visible
 
 EXAMPLE = f"""examples:
   fieldscribe monitor hitachi_l200 status --line tcp://192.168.0.20

@@ -5,8 +5,8 @@ from argparse import ArgumentParser, Namespace
 from fieldscribe.cli.common import add_format, print_json
 from fieldscribe.cli.live_options import LINES, add_live, add_points, add_unit, opened
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
+from fieldscribe.diagnostics import visible
 from fieldscribe.live.readings import GOOD, Reader, Reading, chosen
-from fieldscribe.report import visible
 
 EXAMPLE = f"""examples:
   fieldscribe read hitachi_l200 A020 F002 --line tcp://192.168.0.20

@@ -5,8 +5,8 @@ from argparse import ArgumentParser, Namespace
 from fieldscribe.cli.common import add_format, print_json
 from fieldscribe.cli.live_options import LINES, Progress, add_live, connected, line_of, model_of, print_requests
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
+from fieldscribe.diagnostics import visible
 from fieldscribe.live.connection import Answer, Scanner, read_units
-from fieldscribe.report import visible
 
 EXAMPLE = f"""examples:
   fieldscribe scan --line "rtu:///dev/ttyUSB0?baud=19200"

@@ -5,9 +5,8 @@ from collections.abc import Sequence
 
 from fieldscribe.cli import common
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
-from fieldscribe.diagnostics import Report
+from fieldscribe.diagnostics import Report, place_text, visible
 from fieldscribe.pipeline import load_analysis
-from fieldscribe.report import place_text, visible
 from fieldscribe.search import Entry, Hit, entries_of, near_words, search
 from fieldscribe.text import shortened
 from fieldscribe.user_errors import did_you_mean

@@ -24,7 +24,7 @@ from fieldscribe.cli.common import (
     usage_error,
 )
 from fieldscribe.cli.terminal import FINDINGS, FINE
-from fieldscribe.report import visible
+from fieldscribe.diagnostics import visible
 from fieldscribe.simulation.bench import Bench, BrokenError, carry_out, read_bench
 from fieldscribe.simulation.device import Complaint
 from fieldscribe.simulation.line import KINDS

@@ -9,9 +9,9 @@ from pathlib import Path
 from fieldscribe.cli.common import StopError
 from fieldscribe.cli.live_options import LINES, add_live, add_unit, opened
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
+from fieldscribe.diagnostics import visible
 from fieldscribe.live.snapshots import may_be_replaced
 from fieldscribe.output import writing
-from fieldscribe.report import visible
 from fieldscribe.safe_files import kind_of
 
 EXAMPLE = f"""examples:

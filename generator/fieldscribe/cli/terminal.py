@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, TextIO
 
 if TYPE_CHECKING:
-    from fieldscribe.report import Line
+    from fieldscribe.diagnostics import Line
 
 FINE, FINDINGS, USAGE = 0, 1, 2
 """Exit codes: no finding; findings in the input, or stale output; wrong usage, or an error of the machine."""

@@ -19,10 +19,9 @@ from fieldscribe.cli.common import (
 )
 from fieldscribe.cli.generate import print_waiting
 from fieldscribe.cli.terminal import FINDINGS, FINE
-from fieldscribe.diagnostics import Report
+from fieldscribe.diagnostics import Report, visible
 from fieldscribe.language.keys.forms import ID
 from fieldscribe.output.writing import update_depfile
-from fieldscribe.report import visible
 from fieldscribe.safe_files import Inputs, read_regular
 from fieldscribe.user_errors import UnclearError
 from fieldscribe.vendoring.deliveries import Delivery, Order, compare, deliver, leftovers, refuse_duplicates

@@ -14,7 +14,7 @@ from fieldscribe.authoring.watching import Outcome, Watch
 from fieldscribe.cli.common import add_format, add_paths, description_paths, report_findings
 from fieldscribe.cli.generate import add_where, print_waiting, targets_of
 from fieldscribe.cli.terminal import FINE
-from fieldscribe.report import as_data, summary, visible
+from fieldscribe.diagnostics import as_data, summary, visible
 
 EXAMPLE = """examples:
   fieldscribe watch heat_pump --out bindings

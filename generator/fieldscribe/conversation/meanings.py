@@ -17,9 +17,9 @@ from fieldscribe.arithmetic.exact import pattern_of as float_pattern
 from fieldscribe.arithmetic.texts import date_of, text_of
 from fieldscribe.arithmetic.words import mask_of, words_of
 from fieldscribe.conversation.refusals import amount, failure, is_short
+from fieldscribe.diagnostics import visible
 from fieldscribe.families.frame_results import Bits, bits_label
 from fieldscribe.model import Device, Entry, Flag, Point, Text
-from fieldscribe.report import visible
 from fieldscribe.text import line
 from fieldscribe.wording.exact import decimal_places, number_text, rounded, shortest
 

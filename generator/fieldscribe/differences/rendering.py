@@ -4,10 +4,10 @@ from collections.abc import Callable, Iterator, Mapping
 from itertools import islice
 from typing import Any, NamedTuple
 
+from fieldscribe.diagnostics import Line, visible
 from fieldscribe.differences.changes import CLASSES, Comparison, fact_of, is_taken, next_version, subject_of
 from fieldscribe.differences.comparison import Difference
 from fieldscribe.facts.table import DOCS
-from fieldscribe.report import Line, visible
 from fieldscribe.text import markdown
 from fieldscribe.wording import without_lines
 from fieldscribe.wording.exact import hex_text

@@ -13,9 +13,8 @@ from typing import Any, NoReturn
 import yaml
 from yaml import AliasEvent, MappingEndEvent, MappingStartEvent, ScalarEvent, SequenceEndEvent, StreamEndEvent
 
-from fieldscribe.diagnostics import Report, Span
+from fieldscribe.diagnostics import LINE_BREAK, Report, Span
 from fieldscribe.language.nodes import Map, Place, Seq, SourceFile, Value, share
-from fieldscribe.report import LINE_BREAK
 
 MOST_DIGITS = 64
 

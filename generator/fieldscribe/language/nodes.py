@@ -14,8 +14,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 import yaml
 
-from fieldscribe.diagnostics import Report, Span
-from fieldscribe.report import LINE_BREAK
+from fieldscribe.diagnostics import LINE_BREAK, Report, Span
 from fieldscribe.safe_files import Content, Inputs, UnfitFileError, read_regular, shown_path
 
 MOST_BYTES = 16 * 1024 * 1024

@@ -1,19 +1,22 @@
 """Loads all devices of a run, then compares their files with the output folder, or writes them, device by device.
 
-Files are made in this process, or in a child process for all devices. A device with an error in its description or in
-a target, or with a foreign file in its way, keeps its old outputs.
+Files are made in this process, or in a child process for all devices if the system can fork. A device with an error in
+its description or in a target, or with a foreign file in its way, keeps its old outputs.
 """
 
-from collections.abc import Callable, Collection, Iterator
+import os
+import pickle
+import threading
+from collections.abc import Callable, Collection, Iterable, Iterator
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from itertools import starmap
 from pathlib import Path
-from typing import NamedTuple
+from tempfile import TemporaryFile
+from typing import NamedTuple, TypeVar
 
 from fieldscribe.diagnostics import Report, Span, show_traceback
 from fieldscribe.model import Device
-from fieldscribe.output.children import may_have_children, results_of_child
 from fieldscribe.output.contents import Contents, Spool
 from fieldscribe.output.lock import only_run
 from fieldscribe.output.manifests import FOLDER, GENERATED, Manifests, Record
@@ -23,6 +26,44 @@ from fieldscribe.output.writing import Result, carry_out
 from fieldscribe.pipeline import Models, TargetError, is_new, load_models, outputs
 from fieldscribe.safe_files import Inputs, shown_path
 from fieldscribe.targets import TARGETS, knows, target
+
+T = TypeVar("T")
+
+
+def may_have_children() -> bool:
+    """Return True if there are several processors and a fork is safe for threads."""
+    return hasattr(os, "sched_getaffinity") and len(os.sched_getaffinity(0)) > 1 and threading.active_count() == 1
+
+
+def results_of_child(make: Callable[[], Iterable[T]]) -> Iterator[T]:
+    """Start a child that makes results; return an iterator over them, which waits until all are made.
+
+    The iterator raises ChildProcessError if the child is killed.
+    """
+    file = TemporaryFile()  # noqa: SIM115 - closed by the iterator
+    child = os.fork()
+    if not child:
+        status = 1
+        try:
+            for result in make():
+                pickle.dump(result, file)
+            file.close()
+            status = 0
+        finally:
+            os._exit(status)
+
+    def results() -> Iterator[T]:
+        with file:
+            if os.waitpid(child, 0)[1]:
+                raise ChildProcessError(
+                    "a process that made files broke off: is there enough memory, and room for temporary files?"
+                )
+            size = file.seek(0, os.SEEK_END)
+            file.seek(0)
+            while file.tell() < size:
+                yield pickle.load(file)  # noqa: S301 - written by our own child to a file without a name
+
+    return results()
 
 
 class Failure(NamedTuple):

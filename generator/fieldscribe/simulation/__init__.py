@@ -5,9 +5,8 @@ memory      the words of one device, at first a plausible number for each point;
 device      a memory with the rules: access, ranges, conditions, commands, what survives a restart; and its clock
 line        devices that share a line: requests in, answers with faults and delays out, and the trace; and the
             interface of a family's module `simulation`
-servers     sockets, serial lines and CAN buses for a line
+servers     sockets, serial lines and CAN buses for a line; `simulated("hitachi_l200")`, for tests
 bench       lines with their devices, from a file, the command line or a test; and the console's commands
-library     `simulated("hitachi_l200")`, for tests
 
 A behaviour file changes the numbers over time: `behaviour` implements `device.Behaviour`.
 """
@@ -17,14 +16,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from fieldscribe.simulation.library import Simulated as Simulated
-    from fieldscribe.simulation.library import simulated as simulated
+    from fieldscribe.simulation.servers import Simulated as Simulated
+    from fieldscribe.simulation.servers import simulated as simulated
 
 
 def __getattr__(name: str) -> Any:
     """Import what tests use on first use: `check` reads behaviour files without servers."""
     if name not in ("Simulated", "simulated"):
         raise AttributeError(name)
-    from fieldscribe.simulation import library
+    from fieldscribe.simulation import servers
 
-    return getattr(library, name)
+    return getattr(servers, name)

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 if TYPE_CHECKING:
-    from fieldscribe.simulation.library import Simulated
+    from fieldscribe.simulation.servers import Simulated
 
 
 @pytest.fixture
 def simulated_device() -> Iterator[Callable[..., Simulated]]:
     """Return a function with the arguments of `fieldscribe.simulation.simulated`; each call runs another device."""
-    from fieldscribe.simulation.library import simulated  # every run of pytest imports this module
+    from fieldscribe.simulation.servers import simulated  # every run of pytest imports this module
 
     with ExitStack() as running:
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from fieldscribe.live.devices import device_class
+from fieldscribe.live.connection import device_class
 from fieldscribe_runtime import AccessError, FieldscribeError, RequestError
 from support.described import described, loaded_in
 from support.python_package import Slave

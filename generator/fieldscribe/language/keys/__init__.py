@@ -3,7 +3,7 @@
 To add a key:
 
 1. Write one `Key` (see `fieldscribe/schema_types.py`) in the module here that has its neighbours: `files`, `points`,
-   `meaning`, `nested_keys`, `bus` or `frames`; for one family alone in the part `description` of that family. Its
+   `meaning`, `nested_keys` or `bus`; for one family alone in the part `description` of that family. Its
    `places` come from `places.py`.
 2. Read it where its neighbours are read, in `resolve/` (`facts.get("name")`; most are read in `_terms_of` of
    `resolve/points.py`). Give the model a field with a default: in `Terms` (and its line in `Point`), or in `Shape` if
@@ -17,7 +17,7 @@ To add a key:
 """
 
 from fieldscribe.families import Family, families
-from fieldscribe.language.keys import bus, files, frames, meaning, nested_keys, points
+from fieldscribe.language.keys import bus, files, meaning, points
 from fieldscribe.schema_types import Items, Key, Place
 
 
@@ -33,9 +33,8 @@ TABLE: tuple[Key, ...] = (
     *meaning.KEYS,
     *points.USING,
     *files.SECTIONS,
-    *nested_keys.KEYS,
+    *points.NESTED,
     *bus.KEYS,
-    *frames.KEYS,
     *files.MOVING,
     *(key for bus_family in families() for key in keys_of_family(bus_family)),
 )

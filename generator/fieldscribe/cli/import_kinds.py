@@ -1,25 +1,31 @@
-"""`fieldscribe import table`: draft a description from the tables of a file."""
+"""What `fieldscribe import` drafts: tables of a file, CAN databases, models of SunSpec, templates of a gateway."""
 
 import re
 import sys
 from argparse import ArgumentTypeError, Namespace
 from hashlib import sha256
+from typing import Any
 
 from fieldscribe.cli.common import Parser, StopError, add_repeated
 from fieldscribe.cli.terminal import FINDINGS
+from fieldscribe.diagnostics import visible
 from fieldscribe.families import FAMILIES, families
 from fieldscribe.grouping import grouped
 from fieldscribe.importing import Draft, compilable, draft
+from fieldscribe.importing.dbc import DbcDraft
 from fieldscribe.importing.draft_points import Options
-from fieldscribe.importing.draft_text import Document, Head
+from fieldscribe.importing.draft_text import Document, Head, WholeDraft
 from fieldscribe.importing.headings import ROLES
-from fieldscribe.importing.readers import FORMATS, MOST_BYTES, read_tables
-from fieldscribe.report import visible
+from fieldscribe.importing.readers import FORMATS, MOST_BYTES, UnreadableError, read_tables
+from fieldscribe.importing.sunspec import draft_models
+from fieldscribe.importing.sunspec.models import read_models
+from fieldscribe.importing.wb import draft_template
 from fieldscribe.safe_files import read_regular
+from fieldscribe.text import counted, line
 
 
-def add_arguments(parser: Parser) -> None:
-    """Add the options of this kind."""
+def add_table_arguments(parser: Parser) -> None:
+    """Add the options of `import table`."""
     spaces = dict.fromkeys(space for family in families() for space in family.spaces if space != "telegram")
     add = parser.add_argument
     add("--family", choices=tuple(FAMILIES), help="the device's family (default: by its spaces)")
@@ -131,3 +137,92 @@ def _print_left_out(drafted: Draft) -> None:
         verbs = "s hold no points and are" if len(lines) > 1 else " holds no points and is"
         shown = ", ".join(lines[:12]) + (", …" if len(lines) > 12 else "")
         print(f"{len(lines)} table{verbs} left out (line {shown}); `--list` shows them", file=sys.stderr)
+
+
+def add_database_arguments(parser: Parser) -> None:
+    """Add the options of `import dbc`."""
+    parser.add_argument("--node", metavar="NAME", help="the device: it sends its messages, and receives all others")
+
+
+def from_database(arguments: Namespace) -> tuple[str, list[str]]:
+    """Return the draft of a CAN database, and a report of it. Raises UnreadableError and StopError."""
+    data = read_regular(arguments.file, MOST_BYTES).data
+    text = text_of(data)
+    drafted = DbcDraft(database_of(text), text, arguments.node)
+    if not drafted.groups:
+        raise StopError(f"`{arguments.file}` holds no signals", "a CAN database has messages with signals", FINDINGS)
+    document = Document(arguments.file.name, sha256(data).hexdigest(), "database")
+    head = Head(
+        arguments.device or "draft", [document], "can", facts=drafted.head(), kind="a CAN database", bus=drafted.bus()
+    )
+    return compilable(drafted.groups, head, with_head=arguments.device is not None), list(drafted.report())
+
+
+def text_of(data: bytes) -> str:
+    """Return the text of a database: UTF-8 if valid, else Windows-1252."""
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return data.decode("cp1252", "replace")
+
+
+def database_of(text: str) -> Any:
+    """Return the database that cantools reads. Raises UnreadableError and StopError."""
+    try:
+        from cantools.database import load_string
+    except ModuleNotFoundError as error:
+        message = "CAN databases need the extra `dbc`, which is not installed"
+        raise StopError(message, 'pip install "fieldscribe[dbc]"') from error
+    try:
+        return load_string(text, "dbc", strict=False)
+    except Exception as error:  # cantools raises whatever its parsers do
+        reason = line(str(error))[:200] or type(error).__name__
+        raise UnreadableError(f"this is no CAN database: {reason}", hint="cantools must be able to read it") from error
+
+
+def add_model_arguments(parser: Parser) -> None:
+    """Add the options of `import sunspec`; `import wb` has none."""
+    what = "which models of a folder the device has, as 1,103,120 (default: all)"
+    parser.add_argument("--models", type=_numbers, default=(), metavar="N,N", help=what)
+    what = "how many elements of a group are described, if the device says how many there are (default: 10)"
+    parser.add_argument("--most", type=int, choices=range(1, 1001), default=10, metavar="N", help=what)
+    what = "how far scale factors lie from 0 at most (default: 10): with 6, points of 16 bits have integer counts"
+    parser.add_argument("--exponents", type=int, choices=range(1, 11), default=10, metavar="N", help=what)
+    what = "what a point that counts elements holds in the device, for what lies after them"
+    add_repeated(parser, "--count", "POINT=N", what, type=_count)
+
+
+def from_models(arguments: Namespace) -> tuple[str, list[str]]:
+    """Return the draft of models of SunSpec, and a report of it. Raises UnreadableError."""
+    models = read_models(arguments.file, arguments.models)
+    name, counts = arguments.device or "sunspec", dict(arguments.count)
+    drafted = draft_models(models, name, arguments.most, counts, arguments.exponents)
+    return _with_report(drafted, f"{counted(len(models), 'model')}, {counted(len(drafted.points), 'point')}")
+
+
+def from_template(arguments: Namespace) -> tuple[str, list[str]]:
+    """Return the draft of a template of wb-mqtt-serial, and a report of it. Raises UnreadableError."""
+    drafted = draft_template(arguments.file, arguments.device or "draft")
+    return _with_report(drafted, counted(len(drafted.points), "row"))
+
+
+def _numbers(text: str) -> tuple[int, ...]:
+    """Return the numbers of `1,103,120`."""
+    if not re.fullmatch(r"[0-9]{1,5}(?:,[0-9]{1,5}){0,999}", text):
+        raise ArgumentTypeError(f"`{text}` are no numbers of models: write them as 1,103,120")
+    return tuple(map(int, text.split(",")))
+
+
+def _count(text: str) -> tuple[str, int]:
+    """Return the name and the number of `NPt=4`."""
+    name, _, number = text.partition("=")
+    if not name or not re.fullmatch("[0-9]{1,4}", number):
+        raise ArgumentTypeError(f"`{text}` is no number of elements: write it as NPt=4")
+    return name, int(number)
+
+
+def _with_report(drafted: WholeDraft, counts: str) -> tuple[str, list[str]]:
+    """Return the text of a draft, and the report of what is carried and what is not."""
+    whole = sum(not point.questions for point in drafted.points)
+    lost = (f"not carried: {what} ({times})" for what, times in drafted.not_carried.most_common())
+    return compilable(drafted.groups, drafted.head, with_head=True), ["; ".join((f"{counts}, {whole} whole", *lost))]
