@@ -175,7 +175,8 @@ def _checked(files: Files, report: Report) -> Analysis:
     symbols = symbols_of(scope, expanded)
     bus = bus_of(scope)
     messages = reader_of(scope).messages(scope, bus)
-    resolved, ranges, places = resolve_points(scope, expanded, symbols, telegrams_of(scope, messages))
+    telegrams = telegrams_of(scope, messages)
+    resolved, ranges, places = resolve_points(scope, expanded, symbols, telegrams)
     messages, laid_out = reader_of(scope).lay_out(messages, [entry.point for entry in resolved])
     places.carry(messages)
     resolved = [ResolvedPoint(point, entry.facts) for point, entry in zip(laid_out, resolved, strict=True)]

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple, Self, TypeAlias
 
 from fieldscribe.audit.manual import letters_of
 from fieldscribe.diagnostics import Span
@@ -141,6 +141,12 @@ class ClaimMaker:
             else {}
         )
 
+    @classmethod
+    def of(cls, subject: str, place: Span, node: Map, about: About = "") -> Self:
+        """Return the maker for a thing that has its `line` and `lines` itself."""
+        line = (node["line"], node.span("line")) if node.get("line") is not None else None
+        return cls(subject, place, line, node.get("lines"), about)
+
     def claim(  # noqa: PLR0913 - a row of the table of facts
         self,
         fact: str,
@@ -161,6 +167,11 @@ class ClaimMaker:
     ) -> Iterator[Claim]:
         """Yield the claim that one number is printed."""
         yield from self.claim(fact, str(number), Number(absolute((number,))), place, key=key, optional=optional)
+
+    def numbers(self, fact: str, value: Any, place: Span, *, key: str = "", optional: bool = False) -> Iterator[Claim]:
+        """Yield a claim for each number of a value."""
+        for number in numbers_in(value):
+            yield from self.number(fact, number, place, key=key, optional=optional)
 
     def run(  # noqa: PLR0913 - a row of the table of facts
         self,
@@ -198,11 +209,6 @@ class ClaimMaker:
     def word(self, fact: str, words: tuple[str, ...], place: Span | None = None) -> Iterator[Claim]:
         """Yield the claim that one of these words is printed."""
         yield from self.claim(fact, words[0], Word(words), place)
-
-
-def line_of(node: Map) -> tuple[int, Span] | None:
-    """Return the `line` of a thing with the place of that key, as `ClaimMaker` takes it."""
-    return (node["line"], node.span("line")) if node.get("line") is not None else None
 
 
 def absolute(numbers: Iterable[Fraction]) -> frozenset[Fraction]:

@@ -5,20 +5,9 @@ from collections.abc import Iterator
 from fractions import Fraction
 from typing import Any, NamedTuple
 
-from fieldscribe.audit.claims import (
-    Bytes,
-    Cited,
-    Claim,
-    ClaimMaker,
-    Label,
-    Number,
-    absolute,
-    cited_lines,
-    line_of,
-    numbers_in,
-)
+from fieldscribe.audit.claims import Bytes, Cited, Claim, ClaimMaker, Label, Number, absolute, cited_lines, numbers_in
 from fieldscribe.audit.numbers import Notation
-from fieldscribe.audit.point_claims import claims_of_point
+from fieldscribe.audit.point_claims import PointClaims
 from fieldscribe.diagnostics import Span
 from fieldscribe.families import families, sections_of_codes
 from fieldscribe.language.nodes import Map
@@ -50,7 +39,7 @@ def _all_claims(subject: Analysis) -> Iterator[Claim]:
     notation = Notation(subject.scope.header["documents"])
     shared = _shared_numberings(subject)
     for resolved in subject.resolved:
-        yield from claims_of_point(resolved.point, resolved.facts, subject.scope.named_enums, notation, shared)
+        yield from PointClaims(resolved.point, resolved.facts, subject.scope.named_enums, notation).all(shared)
     for name, entries in subject.scope.named_enums.items():
         yield from _claims_of_enum(name, entries, notation)
     for file in subject.scope.files:
@@ -90,20 +79,19 @@ def _claims_of_enum(name: str, entries: Map, notation: Notation) -> Iterator[Cla
     """Yield the claims of entries of a shared enum that cite a line themselves."""
     for key, entry in entries.items():
         if isinstance(entry, Map) and "line" in entry:
-            maker = ClaimMaker(f"enum {name}", entries.key_span(key), line_of(entry), None)
+            maker = ClaimMaker.of(f"enum {name}", entries.key_span(key), entry)
             yield from maker.claim("enum", str(key), Number(absolute(numbers_in(key))))
             yield from maker.label("enum", notation.label(entry), entries.key_span(key), beside=(numbers_in(key),))
 
 
 def claims_of_entry(kind: str, entry: Map, notation: Notation) -> Iterator[Claim]:
     """Yield the claims of a command, a message or a telegram: its numbers and its title."""
-    maker = ClaimMaker(f"{kind} {entry['name']}", entry.span("name"), line_of(entry), entry.get("lines"))
+    maker = ClaimMaker.of(f"{kind} {entry['name']}", entry.span("name"), entry)
     identifiers = tuple(key for family in families() if family.lays_out_messages for key in family.frame_keys)
     for key in ("at", *identifiers, "value", "length", "wears"):
-        for number in numbers_in(entry.get(key)):
-            yield from maker.number(key, number, entry.span(key))
-    for number in numbers_in(entry.get("steps")):  # some are computed, such as a complement
-        yield from maker.number("steps", number, entry.span("steps"), optional=True)
+        yield from maker.numbers(key, entry.get(key), entry.span(key))
+    # some are computed, such as a complement
+    yield from maker.numbers("steps", entry.get("steps"), entry.span("steps"), optional=True)
     yield from maker.label("title", notation.label(entry.get("title")), entry.span("title"))
     layout = entry.get("layout", Map(entry.file, entry.start))
     names = ("Byte", *notation.written("byte"))
@@ -111,15 +99,14 @@ def claims_of_entry(kind: str, entry: Map, notation: Notation) -> Iterator[Claim
         place, (first, *last) = layout.key_span(run), map(int, numbers_in(run))
         for number in numbers_in(run):
             yield from maker.claim("layout", str(number), Number(absolute((number,)), names=names), place, key="bytes")
-        for number in numbers_in(carried):
-            yield from maker.number("layout", number, place, key="bytes")
+        yield from maker.numbers("layout", carried, place, key="bytes")
         for byte in range(first + 1, max(last, default=first)):
             yield from maker.number("layout", Fraction(byte), place, key="bytes", optional=True)
 
 
 def claims_of_settings(bus: Map) -> Iterator[Claim]:
     """Yield the claims of settings: the bit rate, perhaps in kBaud, the length of identifiers, those under `lines`."""
-    maker = ClaimMaker("bus", bus.span(), line_of(bus), bus.get("lines"))
+    maker = ClaimMaker.of("bus", bus.span(), bus)
     for key, unit in (("bitrate", 1000), ("identifier_bits", 1)):
         for number in numbers_in(bus.get(key)):
             evidence = Number(absolute((number, number / unit)))
@@ -133,8 +120,7 @@ def claims_of_settings(bus: Map) -> Iterator[Claim]:
 def _claims_of_setting(maker: ClaimMaker, key: str, value: Any, place: Span) -> Iterator[Claim]:
     """Yield the claims of a setting: its numbers and its parity; or each code with its meaning."""
     if not isinstance(value, Map):
-        for number in numbers_in(value):
-            yield from maker.number(key, number, place)
+        yield from maker.numbers(key, value, place)
         if words := _parity_words(value):
             yield from maker.word(key, words, place)
         return
@@ -161,35 +147,30 @@ def claims_of_codes(kind: str, codes: Any) -> Iterator[Claim]:
             rows.setdefault(entry["line"], []).extend(numbers_in(key))
     for key, entry in codes.items() if isinstance(codes, Map) else ():
         if isinstance(entry, Map):
-            about = Named(kind, parse_integer(key))
-            maker = ClaimMaker(f"{kind} {key}", codes.key_span(key), line_of(entry), entry.get("lines"), about)
+            maker = ClaimMaker.of(f"{kind} {key}", codes.key_span(key), entry, Named(kind, parse_integer(key)))
             row = rows.get(entry.get("line", 0), [])
             ends = frozenset((min(row), max(row))) if len(row) > 2 else frozenset()
             for number in numbers_in(key):
                 yield from maker.claim("number", str(key), Number(absolute((number,)), ends=ends))
             for fact in ("max", "answers", "refusals"):
-                for number in numbers_in(entry.get(fact)):
-                    yield from maker.number(fact, number, entry.span(fact))
-            for number in numbers_in(entry.get("printed", {}).get("bytes")):
-                yield from maker.number("printed bytes", number, entry.span("printed"))
+                yield from maker.numbers(fact, entry.get(fact), entry.span(fact))
+            yield from maker.numbers("printed bytes", entry.get("printed", {}).get("bytes"), entry.span("printed"))
 
 
 def _claims_of_frames(file: Map) -> Iterator[Claim]:
     """Yield the claims of the worked frames: their bytes, and the numbers that they carry."""
     for frame in file.get("frames", ()):
-        about = Named("frame", frame["name"])
-        maker = ClaimMaker(f"frame {frame['name']}", frame.span("name"), line_of(frame), frame.get("lines"), about)
+        name = frame["name"]
+        maker = ClaimMaker.of(f"frame {name}", frame.span("name"), frame, Named("frame", name))
         digits = "".join(str(frame["bytes"]).split()).upper()
         if maker.own_line:
             yield from maker.claim("bytes", digits, Bytes(digits), frame.span("bytes"))
             for byte in range(1, len(digits) // 2 + 1):  # tables count the bytes
                 yield from maker.number("place of a byte", Fraction(byte), key="bytes", optional=True)
-        values, has_place = numbers_in(frame.get("says")), "printed" in maker.lines_of_fact
+        values, cited = numbers_in(frame.get("says")), "printed" in maker.lines_of_fact
         for number in dict.fromkeys(values):  # beside the bytes, or not at all
             evidence = Number(absolute((number,)), times=values.count(number))
-            yield from maker.claim(
-                "says", str(number), evidence, frame.span("says"), key="printed", optional=not has_place
-            )
+            yield from maker.claim("says", str(number), evidence, frame.span("says"), key="printed", optional=not cited)
 
 
 class PrintedErratum(NamedTuple):

@@ -19,14 +19,6 @@ from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.values import WORD_BITS
 
 
-def claims_of_flags(
-    maker: ClaimMaker, point: Point, facts: PointFacts, enums: Mapping[str, Map], notation: Notation
-) -> Iterator[Claim]:
-    """Yield the claims of each flag at its bits, with the values that have names; `enums` are shared ones."""
-    for flag in point.flags:
-        yield from _FlagClaims(maker, point, facts, notation, flag).all(enums.get(flag.enum))
-
-
 class _FlagClaims:
     """Makes the claims of one flag. `low` and `high` are its bits in the whole word."""
 
@@ -54,8 +46,7 @@ class _FlagClaims:
             beside = () if self.named or at_values else (self._bits_of_flag(), self._bits_of_flag(), self._masks())
             yield from self.maker.label("flags", label, self.place, beside=beside)
         for name in ("mask", "active"):
-            for number in numbers_in(self.printed.get(name)):
-                yield from self.maker.number(f"printed {name}", number, self.place, key="flags")
+            yield from self.maker.numbers(f"printed {name}", self.printed.get(name), self.place, key="flags")
         yield from self._values(values, "values" if once_for_all else "flags")
 
     def _bits(self, *, optional: bool) -> Iterator[Claim]:
@@ -133,18 +124,8 @@ KEYS_OF_PRINTED = keys_of(PRINTED)
 """The keys of `printed` that every point may have; its other keys are the numberings of the device."""
 
 
-def claims_of_point(
-    point: Point, facts: PointFacts, enums: Mapping[str, Map], notation: Notation, shared: frozenset[str]
-) -> Iterator[Claim]:
-    """Yield the claims of all facts that a point itself states.
-
-    `shared` numberings give one number to several addresses.
-    """
-    yield from _PointClaims(point, facts, enums, notation).all(shared)
-
-
-class _PointClaims:
-    """Makes the claims of one point."""
+class PointClaims:
+    """Makes the claims of all facts that one point itself states; `enums` are the shared ones."""
 
     def __init__(self, point: Point, facts: PointFacts, enums: Mapping[str, Map], notation: Notation) -> None:
         self.point, self.facts, self.enums, self.notation = point, facts, enums, notation
@@ -152,6 +133,7 @@ class _PointClaims:
         self.maker = ClaimMaker(point.item, facts.span(), line, facts.get("lines"), point.name)
 
     def all(self, shared: frozenset[str]) -> Iterator[Claim]:
+        """Yield the claims; `shared` numberings give one number to several addresses."""
         facts = self.facts
         code = None if self.point.code is None else _INDEX_AFTER_CODE.sub("", self.point.code).strip()
         if code:
@@ -167,7 +149,9 @@ class _PointClaims:
         yield from self._scale_and_default()
         yield from self._enum()
         yield from self._special_codes()
-        yield from claims_of_flags(self.maker, self.point, facts, self.enums, self.notation)
+        for flag in self.point.flags:
+            claims = _FlagClaims(self.maker, self.point, facts, self.notation, flag)
+            yield from claims.all(self.enums.get(flag.enum))
         yield from self._printed()
 
     def _states(self, key: str) -> bool:

@@ -52,7 +52,8 @@ class PointKinds:
             of_kind = self.names[name] = first.setdefault(kinds[item], name)
             self._longest[of_kind] = max(len(item), self._longest.get(of_kind, 0))
         self._are_unique = len(self.names) == len(several)
-        self.sample = _sample(device, {item for item, name in several.items() if self.names[name] != name})
+        left_out = {item for item, name in several.items() if self.names[name] != name}
+        self.sample = _sample(device, left_out)
         self.saves_time = 3 * len(self.sample.points) < len(device.points)
 
     def are_distinct(self, identifiers: Callable[[Device], Iterable[Names]], before_points: Iterable[str]) -> bool:

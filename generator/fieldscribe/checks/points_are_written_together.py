@@ -15,7 +15,7 @@ def check(analysis: Analysis) -> None:
         if facts.failed & {"at", "space", "type", "access"}:
             continue
         others = [other for name in point.write_with for other in by_name.get(name, ()) if _meet(point, other)]
-        words = {address for each in (point, *others) for address in _written_at(each)}
+        words = {address for each in (point, *others) for address in each.written.addresses}
         span = facts.span("write_with")
         if unwritable := [each.name for each in (point, *others) if not each.writable]:
             message, hint = f"`{unwritable[0]}` cannot be written", "leave it out, or correct its `access`"
@@ -35,7 +35,3 @@ def check(analysis: Analysis) -> None:
 def _meet(point: Point, other: Point) -> bool:
     """Return True if both can exist in the same device."""
     return point.variant is None or other.variant is None or point.variant == other.variant
-
-
-def _written_at(point: Point) -> tuple[int, ...]:
-    return (point.write_place or point.place).addresses

@@ -11,17 +11,9 @@ from fieldscribe.audit.renumbering import LONGEST, hindrances, renumber, with_re
 from fieldscribe.audit.report import audit_lines, audit_page, comparison_lines
 from fieldscribe.authoring.formatting import rewrite
 from fieldscribe.cli import FINDINGS, FINE
-from fieldscribe.cli.common import (
-    StopError,
-    add_device,
-    device_file,
-    print_json,
-    report_findings,
-    some_path,
-    usage_error,
-)
+from fieldscribe.cli.common import StopError, add_device, load, print_json, some_path, usage_error
 from fieldscribe.cli.terminal import print_lines
-from fieldscribe.diagnostics import Report, visible
+from fieldscribe.diagnostics import visible
 from fieldscribe.model import Document
 from fieldscribe.pipeline import load_analysis
 from fieldscribe.resolve.analysis import Analysis
@@ -85,7 +77,7 @@ def run(arguments: Namespace) -> int:
 
 
 def _audit(arguments: Namespace) -> int:
-    subject = _subject(arguments)
+    subject = load(load_analysis, arguments)
     text, citations = _text(subject, arguments.manual), Citations(subject)
     last = max((max(cited.lines) for claim in citations.claims for cited in claim.cited), default=0)
     if (lines := len(text.text.splitlines())) < last:
@@ -108,7 +100,7 @@ def _compare(arguments: Namespace) -> int:
     written: list[str] = []
     refused: str | None = None
     while True:
-        subject = _subject(arguments)
+        subject = load(load_analysis, arguments)
         old, new = _text(subject, arguments.old), _text(subject, arguments.manual)
         editions = Editions(Citations(subject), old.text, new.text)
         outcome = editions.compare(old.name, new.name)
@@ -181,16 +173,6 @@ def _report(arguments: Namespace, outcome: Comparison, written: list[str], refus
     print_lines([[("", visible(line))] for note in written for line in note.splitlines()])
     if refused is not None:
         print_lines([[("error", "not accepted"), ("", visible(f": {refused}"))]])
-
-
-def _subject(arguments: Namespace) -> Analysis:
-    """Return the description with the places of its facts. Raises StopError."""
-    report = Report()
-    subject = load_analysis(device_file(arguments), report)
-    if subject is None:
-        report_findings(report, "json" if arguments.format == "json" else "text")
-        raise StopError("", code=1)
-    return subject
 
 
 def _text(subject: Analysis, place: Path) -> _Text:

@@ -10,7 +10,7 @@ from difflib import get_close_matches
 from functools import lru_cache
 from math import inf
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, Any, TextIO, TypeVar
 
 from fieldscribe import pipeline
 from fieldscribe.cli.terminal import FINDINGS, USAGE, print_lines
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device
 
 Parser = ArgumentParser | _ArgumentGroup
+Loaded = TypeVar("Loaded")
 
 _LONGEST = 1e8
 """The most seconds that an option accepts: three years."""
@@ -201,12 +202,18 @@ def open_device(arguments: Namespace, inputs: Inputs | None = None) -> Device:
     """
     from fieldscribe.conversation.selection import choose_variants  # `check` starts without it
 
+    device = load(lambda file, report: pipeline.load_device(file, report, inputs), arguments)
+    return choose_variants(device, getattr(arguments, "variant", []))
+
+
+def load(how: Callable[[Path, Report], Loaded | None], arguments: Namespace) -> Loaded:
+    """Return what a function loads of the device named on the command line. Raises StopError, with its findings."""
     report = Report()
-    device = pipeline.load_device(device_file(arguments), report, inputs)
-    if device is None:
+    loaded = how(device_file(arguments), report)
+    if loaded is None:
         report_findings(report, getattr(arguments, "format", "text"))
         raise StopError("", code=FINDINGS)
-    return choose_variants(device, getattr(arguments, "variant", []))
+    return loaded
 
 
 def device_file(arguments: Namespace) -> Path:

@@ -26,27 +26,14 @@ from fieldscribe.cli.common import (
 from fieldscribe.cli.terminal import FINDINGS, FINE
 from fieldscribe.diagnostics import visible
 from fieldscribe.simulation.bench import Bench, BrokenError, carry_out, read_bench
-from fieldscribe.simulation.device import Complaint
 from fieldscribe.simulation.line import KINDS
 from fieldscribe.simulation.servers import serve
 from fieldscribe.user_errors import UnclearError
 
 _PLACES = ("tcp", "serial", "can")
 _USUAL_TIME = 1.0
-_OF_THE_LINE = {
-    "--framing": "framing",
-    "--speed": "speed",
-    "--unit": "unit",
-    "--descriptions": "descriptions",
-    "--variant": "variant",
-    "--with": "given",
-    "--set": "values",
-    "--unmet": "unmet",
-    "--fault": "faults",
-    "--still": "still",
-    "--strict": "strict",
-    "--seed": "seed",
-    "--time-scale": "time_scale",
+_OF_THE_LINE = {"with": "given", "set": "values", "fault": "faults", "time-scale": "time_scale"} | {
+    name: name for name in ("framing", "speed", "unit", "descriptions", "variant", "unmet", "still", "strict", "seed")
 }
 """The options that a bench file has keys for, with their attributes."""
 
@@ -125,7 +112,7 @@ def _require_bench_alone(arguments: Namespace) -> None:
         raise StopError("a bench file names its devices itself", "leave DEVICE out, or --bench")
     for option, attribute in _OF_THE_LINE.items():
         if getattr(arguments, attribute) not in (None, "", False, [], 0, _USUAL_TIME):
-            raise StopError(f"a bench file is given, and {option} would have no effect", "write it in the file")
+            raise StopError(f"a bench file is given, and --{option} would have no effect", "write it in the file")
 
 
 def _settings(arguments: Namespace) -> Mapping[str, Any]:
@@ -185,7 +172,7 @@ async def _serve(bench: Bench, seconds: float | None, trace: TextIO | None) -> i
         (device, server) for line, server in zip(bench.lines, servers, strict=True) for device in line.core.devices
     ]
     for device, server in devices:
-        device.on_complaint = _complain
+        device.on_complaint = lambda complaint: print(visible(str(complaint)), file=sys.stderr, flush=True)
         print(f"{device.device.id} answers as unit {device.unit} on {server.url}", flush=True)
     for number in (SIGINT, SIGTERM):
         loop.add_signal_handler(number, stop.set)
@@ -198,10 +185,6 @@ async def _serve(bench: Bench, seconds: float | None, trace: TextIO | None) -> i
     tail = f", {complaints} against the manual" if any(each.strict for each, _ in devices) else ""
     print(f"{requests} request{'' if requests == 1 else 's'}{tail}")
     return FINDINGS if complaints else FINE
-
-
-def _complain(complaint: Complaint) -> None:
-    print(visible(str(complaint)), file=sys.stderr, flush=True)
 
 
 def _read_lines(bench: Bench, stop: asyncio.Event) -> None:

@@ -1,6 +1,6 @@
 """The differences of two sides, device by device, with their places, their names in code, and the version step."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 from typing import Any
 
@@ -144,7 +144,8 @@ class Comparison:
 
 def compared(old: Mapping[str, Side], new: Mapping[str, Side]) -> list[Comparison]:
     """Return the devices of both sides, in the order of the new side, removed ones last."""
-    return [Comparison(device, old.get(device), new.get(device)) for device in dict.fromkeys([*new, *old])]
+    ids = dict.fromkeys([*new, *old])
+    return [Comparison(device, old.get(device), new.get(device)) for device in ids]
 
 
 def subject_of(difference: Difference) -> str | None:
@@ -169,11 +170,7 @@ def fact_of(difference: Difference) -> str:
 def as_data(comparisons: list[Comparison]) -> dict[str, Any]:
     """Return everything for JSON."""
     changes = [_change(comparison, difference) for comparison in comparisons for difference in comparison.differences]
-    return {"changes": changes, "step": step_for(_classes(comparisons))}
-
-
-def _classes(comparisons: list[Comparison]) -> Iterator[str]:
-    return (difference.weight for comparison in comparisons for difference in comparison.differences)
+    return {"changes": changes, "step": step_for(change["class"] for change in changes)}
 
 
 def _change(comparison: Comparison, difference: Difference) -> dict[str, Any]:

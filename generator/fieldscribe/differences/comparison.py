@@ -48,7 +48,8 @@ Entries: TypeAlias = "Mapping[str, View | Parts]"
 
 def differences(old: Exported, new: Exported) -> list[Difference]:
     """Return all differences of two exported models, in the order of the table of facts and of the new model."""
-    entries = {view.label: view for fact in device_table(new["family"]) for view in fact.compared()}
+    table = device_table(new["family"])
+    entries = {view.label: view for fact in table for view in fact.compared()}
     comparison = _Comparison(entries, old, new)
     comparison.compare(entries, old, new, ())
     return comparison.found
@@ -140,7 +141,8 @@ def _following(old: Exported, new: Exported) -> Exported:
     if old["name"] in new.get("was", ()):
         following["was"] = [other for other in new["was"] if other != old["name"]]
     before, after = (part.get("title", {}).get("en", "") for part in (old, new))
-    if before != after == before.replace(*_changed_words(old["name"].split("_"), new["name"].split("_"))):
+    words = _changed_words(old["name"].split("_"), new["name"].split("_"))
+    if before != after == before.replace(*words):
         following["title"] = {**new["title"], "en": before}
     return following
 

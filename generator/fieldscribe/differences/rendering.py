@@ -97,7 +97,8 @@ def _text_of(comparison: Comparison, group: _Group) -> Iterator[Line]:
         yield [("", "    "), ("strong", group.moved), ("", f": {_OTHER_LINES}")]
         return
     yield [("", "    "), ("strong", visible(_subject(group))), ("", visible(_sentence(group.first)))]
-    where = [place for place in dict.fromkeys(comparison.places(group.first).values()) if place]
+    places = comparison.places(group.first)
+    where = [place for place in dict.fromkeys(places.values()) if place]
     yield [("", "      "), ("place", visible(" -> ".join(where)))]
     for language, names in _symbols(comparison, group.first):
         yield [("", visible(f"      {language}: {names}"))]
@@ -153,8 +154,7 @@ def _kept(difference: Difference) -> str:
 
 
 def _versions(comparison: Comparison) -> str:
-    versions = [side.version for side in (comparison.old, comparison.new) if side is not None]
-    return " -> ".join(dict.fromkeys(versions))
+    return " -> ".join(dict.fromkeys(side.version for side in (comparison.old, comparison.new) if side is not None))
 
 
 def _next(comparison: Comparison) -> str:
@@ -170,7 +170,7 @@ def _advice(comparison: Comparison, arrow: str = "->") -> str:
     """Return the step that the version must take, and whether it does."""
     old, new, step = comparison.old, comparison.new, comparison.step
     if old is None or new is None or step is None:
-        return f"{'a new device' if old is None else 'the device is gone'}"
+        return "a new device" if old is None else "the device is gone"
     wanted = next_version(old.version, step)
     if wanted is None:
         return f"a {step} step of the version ({old.version} is not a version like 1.2.3)"
@@ -253,10 +253,6 @@ def _titles(titles: Any) -> str:
     return "; ".join(f"{language}: {text}" for language, text in titles.items())
 
 
-def _scale(cases: Any) -> str:
-    return "; ".join(map(_case, cases))
-
-
 def _case(case: Mapping[str, Any]) -> str:
     """Return one rule: `raw = value * 10 / 3 * factor + 5`."""
     rule = "raw = value"
@@ -303,6 +299,6 @@ _WORDS: Mapping[str, Callable[[Any], str]] = {
     "title": _titles,
     "note": _titles,
     "note of the bus": _titles,
-    "scale": _scale,
+    "scale": lambda cases: "; ".join(map(_case, cases)),
     "when": _condition,
 }

@@ -248,7 +248,8 @@ def _separator(line: str) -> str:
 def _split(line: str, separator: str) -> list[str]:
     if separator == "\t":
         return [clean(cell) for cell in line.split("\t")]
-    return [clean(cell.replace("\\|", "|")) for cell in _UNESCAPED_BAR.split(line.strip()[1:-1])]
+    inner = line.strip()[1:-1]
+    return [clean(cell.replace("\\|", "|")) for cell in _UNESCAPED_BAR.split(inner)]
 
 
 def _read_html(text: str) -> list[Table]:

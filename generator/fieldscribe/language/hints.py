@@ -95,7 +95,8 @@ def form_hint(value: str, form: Form) -> str:
         return form.hint
     import unicodedata
 
-    plain = unicodedata.normalize("NFKD", value[:60].translate(_GERMAN)).encode("ascii", "ignore").decode()
+    spelled = value[:60].translate(_GERMAN)
+    plain = unicodedata.normalize("NFKD", spelled).encode("ascii", "ignore").decode()
     suggestion = re.sub(r"[^a-z0-9]+", "_", re.sub(r"([a-z0-9])([A-Z])", r"\1_\2", plain).lower()).strip("_")
     if value[:1].isdigit():
         return "a name starts with a letter: `speed_2`, not `2nd_speed`"

@@ -367,7 +367,8 @@ def suggest_bits(text: str) -> str | None:
     match = re.fullmatch(r"[^\W\d]{0,5}[ .]?([0-9]{1,2})(?:(?:-|:|,|/| to )([0-9]{1,2}))?", text.strip())
     if match is None or text.strip().isdecimal():
         return None
-    return "..".join(map(str, sorted((int(bit) for bit in match.groups() if bit), reverse=True)))
+    ends = sorted((int(bit) for bit in match.groups() if bit), reverse=True)
+    return "..".join(map(str, ends))
 
 
 def reversed_hint(key: str, value: Any) -> str | None:

@@ -186,7 +186,8 @@ class Journal:
         self._stream = path.open("a", encoding="utf-8")
         if self._stream.tell():
             self._stream.write("\n")  # the last line of a killed restore may be incomplete
-        self._note({"started": datetime.now(UTC).isoformat(timespec="seconds"), **facts, "writes": names})
+        started = datetime.now(UTC).isoformat(timespec="seconds")
+        self._note({"started": started, **facts, "writes": names})
 
     def begin(self, number: int, **facts: Any) -> None:
         """Log the next write; `facts` are the old and the new number."""

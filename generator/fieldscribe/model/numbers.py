@@ -29,15 +29,7 @@ TYPES: Mapping[str, TypeInfo] = {
 TYPE_PATTERN = "^(bit|[us]([1-9]|[1-5][0-9]|6[0-4])|f32|f64|text|bytes)$"
 """The names of wire types: those of `TYPES`, bytes, and a sign with any width up to 64 bits."""
 
-NOTATIONS: Mapping[str, int] = {
-    "hex": 0,
-    "version": 0,
-    "version of nibbles": 0,
-    "ipv4": 4,
-    "ipv6": 16,
-    "eui48": 6,
-    "eui64": 8,
-}
+NOTATIONS = {"hex": 0, "version": 0, "version of nibbles": 0, "ipv4": 4, "ipv6": 16, "eui48": 6, "eui64": 8}
 """How people write bytes, with the number of bytes; 0 for any."""
 
 

@@ -139,7 +139,8 @@ def identifications_of(scope: Scope, symbols: SymbolTable, points: Mapping[str, 
             other = known.setdefault((variant.axis, tuple(replace(one, variant=None) for one in these)), variant.value)
             if these and other != variant.value:
                 message = f"nothing tells {variant.value} and {other} apart: the device holds the same for both"
-                scope.report.error("identify", message, node.span(), "give one of them what only it holds")
+                hint = "give one of them what only it holds"
+                scope.report.error("identify", message, node.span(), hint)
     return tuple(found)
 
 

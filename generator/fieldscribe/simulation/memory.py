@@ -96,7 +96,8 @@ def _candidates(layout: Layout, point: Point, settings: Settings, random: Random
     if usual is not None:
         yield codec.encode(point, Fraction(usual), settings)
     for low, high in _ranges(point, settings):
-        number = low + (high - low) * Fraction(random.randint(25, 75), 100)
+        share = Fraction(random.randint(25, 75), 100)
+        number = low + (high - low) * share
         yield codec.encode(point, Fraction(round(number)), settings) if point.info.floating else round(number)
         yield codec.encode(point, low, settings) if point.info.floating else int(low)
 

@@ -81,7 +81,8 @@ def refuse_duplicates(orders: Iterable[Order]) -> None:
 def compare(order: Order) -> Delivery:
     """Return the differences, and write nothing. Raises UnclearError."""
     manifests = Manifests(order.out, VENDORED)
-    plan, delivery = _planned(order, manifests, _files(order, manifests), force=False)
+    made = _files(order, manifests)
+    plan, delivery = _planned(order, manifests, made, force=False)
     delivery.kept = sorted(plan.kept)
     for path in plan.stale:
         if path not in plan.refused:

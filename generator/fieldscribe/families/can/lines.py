@@ -69,7 +69,8 @@ class CanCutter:
 
     def take(self, chunk: Chunk) -> tuple[Cut, ...]:
         """Return the frame of a message."""
-        return (Cut(chunk.time, CanFrame(chunk.identifier, chunk.data, chunk.remote), chunk.data, None),)
+        frame = CanFrame(chunk.identifier, chunk.data, chunk.remote)
+        return (Cut(chunk.time, frame, chunk.data, None),)
 
     def rest(self) -> tuple[Cut, ...]:
         """Return nothing: each message is whole."""

@@ -24,7 +24,8 @@ _LINT = re.compile(r'("(?:\\.|[^"\\])*")|//[^\n]*|/\*.*?\*/', re.DOTALL)
 
 def read_template(path: Path) -> dict[str, Any]:
     """Return the object that a template holds; its numbers are int or Fraction. Raises UnreadableError, OSError."""
-    plain = _LINT.sub(lambda match: match[1] or re.sub(r"[^\n]", "", match[0]), _text(path))
+    text = _text(path)
+    plain = _LINT.sub(lambda match: match[1] or re.sub(r"[^\n]", "", match[0]), text)
     try:
         read = json.loads(plain, parse_float=_number, parse_constant=_number)
     except json.JSONDecodeError as error:

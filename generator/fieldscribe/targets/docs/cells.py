@@ -164,7 +164,8 @@ def source_cell(source: Source, with_document: bool) -> str:
 
 @lru_cache(maxsize=256)
 def _before_line(document: str, section: str | None, page: str | None, with_document: bool) -> str:
-    return cell(source_text(Source(document, section, page, 0), with_document)).removesuffix("0")
+    numbered = cell(source_text(Source(document, section, page, 0), with_document))
+    return numbered.removesuffix("0")
 
 
 MARKDOWN = Form(cell, paragraph, code, link, narrow_link, target, narrow_target, source_cell, LINE_BREAK, _lay_out)

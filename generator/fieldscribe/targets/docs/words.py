@@ -56,7 +56,8 @@ class _Field(NamedTuple):
 
     @property
     def pixels(self) -> int:
-        return _BORDERS + _SIGN * max(map(len, (self.bits, *_BREAKS.split(self.text))))
+        parts = (self.bits, *_BREAKS.split(self.text))
+        return _BORDERS + _SIGN * max(map(len, parts))
 
     def bit(self, number: int) -> str:
         """Return the text at one bit: the name at the highest bit, and again at the start of a byte."""

@@ -17,33 +17,9 @@ _RESERVED = frozenset(
 """The reserved words, and built-in names that generated code must not hide."""
 
 DEVICE_MEMBERS = frozenset(
-    {
-        "broadcast",
-        "drop_process_data",
-        "find_blocks",
-        "forget",
-        "identify",
-        "layouts",
-        "set_base",
-        "fresh_for",
-        "link",
-        "patience",
-        "point",
-    }
-    | {
-        "read_at",
-        "read_many",
-        "repeats",
-        "retries",
-        "retry_pause",
-        "rows",
-        "take",
-        "traffic",
-        "transport",
-        "unit",
-        "variants",
-    }
-    | {"write_at", "write_together"}
+    {"broadcast", "drop_process_data", "find_blocks", "forget", "identify", "layouts", "set_base", "fresh_for"}
+    | {"link", "patience", "point", "read_at", "read_many", "repeats", "retries", "retry_pause", "rows", "take"}
+    | {"traffic", "transport", "unit", "variants", "write_at", "write_together"}
 )
 """Public members of the runtime's devices, which no point may hide; a test compares them with the runtime."""
 

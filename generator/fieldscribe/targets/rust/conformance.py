@@ -276,7 +276,8 @@ def item_row(key: str, module: str, how: str, name: str) -> str:
 
 def arms(tables: Iterable[Table]) -> Iterator[tuple[str, Lines]]:
     """Yield each kind of vectors with the chain of tables that answer it, in lines as rustfmt lays them out."""
-    for kind, calls in grouped((table.kind, f"{table.name}(vector)") for table in tables).items():
+    answering = grouped((table.kind, f"{table.name}(vector)") for table in tables)
+    for kind, calls in answering.items():
         chain = [calls[0], *(f".or_else(|| {call})" for call in calls[1:])]
         on_one_line = len(chain) <= 2 or len("".join(chain)) <= _CHAIN
         yield kind, ("".join(chain),) if on_one_line else (chain[0], *(f"    {link}" for link in chain[1:]))

@@ -42,21 +42,10 @@ _PRELUDE = (
 
 _OF_CRATE = frozenset(
     {"Access", "AsyncClient", "AsyncTransport", "BitGroup", "Block", "Client", "ClientError", "Coded", "Command"}
-    | {
-        "CountReadable",
-        "CountWritable",
-        "Dialogue",
-        "Encodable",
-        "Error",
-        "FixedBits",
-        "Frame",
-        "Framing",
-        "Function",
-        "Link",
-        "Listener",
-    }
-    | {"LocalClient", "LocalTransport", "Message", "Point", "PointInfo", "Profile", "Readable", "Reading", "Receiver"}
-    | {"ReplyError", "Scaled", "Space", "Special", "Task", "Transport", "Whole", "Writable"}
+    | {"CountReadable", "CountWritable", "Dialogue", "Encodable", "Error", "FixedBits", "Frame", "Framing"}
+    | {"Function", "Link", "Listener", "LocalClient", "LocalTransport", "Message", "Point", "PointInfo", "Profile"}
+    | {"Readable", "Reading", "Receiver", "ReplyError", "Scaled", "Space", "Special", "Task", "Transport", "Whole"}
+    | {"Writable"}
 )
 """Names at the root of every crate, or of those of a family."""
 

@@ -49,7 +49,8 @@ class MacroFields(NamedTuple):
 def point_texts(scope: CrateScope, render: Render) -> tuple[str, bool]:
     """Return the texts of all points, and whether one of them names items of the runtime."""
     templates = _PointTemplates(scope, render)
-    return "".join([templates.text(subject) for subject in scope.subjects]), templates.names_runtime
+    texts = [templates.text(subject) for subject in scope.subjects]
+    return "".join(texts), templates.names_runtime
 
 
 class _PointTemplates:

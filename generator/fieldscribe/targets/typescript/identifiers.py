@@ -50,35 +50,11 @@ OBJECT_MEMBERS = frozenset(
 """Properties that every object has or that the language reads, such as `then` of an awaited object."""
 
 MAKERS = frozenset(
-    {
-        "bit",
-        "bytes",
-        "codes",
-        "coil",
-        "command",
-        "dateParts",
-        "dateTimeParts",
-        "digits",
-        "discrete",
-        "factor",
-        "flags",
-        "floating",
-        "holding",
-    }
-    | {"inputRegister", "integer", "limit", "named", "parameter", "place", "readOnly", "readWrite", "rule", "scaleCase"}
-    | {
-        "scaled",
-        "step",
-        "stepWord",
-        "steppedCommand",
-        "stored",
-        "storedWriteOnly",
-        "telegram",
-        "text",
-        "time",
-        "timeParts",
-    }
-    | {"wireType", "withCodes", "withWritableCodes", "writeOnly", "allCommands", "allPoints", "oldNames"}
+    {"bit", "bytes", "codes", "coil", "command", "dateParts", "dateTimeParts", "digits", "discrete", "factor"}
+    | {"flags", "floating", "holding", "inputRegister", "integer", "limit", "named", "parameter", "place", "readOnly"}
+    | {"readWrite", "rule", "scaleCase", "scaled", "step", "stepWord", "steppedCommand", "stored", "storedWriteOnly"}
+    | {"telegram", "text", "time", "timeParts", "wireType", "withCodes", "withWritableCodes", "writeOnly"}
+    | {"allCommands", "allPoints", "oldNames"}
 )
 """The functions of the runtime that create points, and other names of the points module."""
 

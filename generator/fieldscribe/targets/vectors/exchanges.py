@@ -279,4 +279,5 @@ def typical(oracle: Oracle, encoding: PointEncoding, settings: dict[str, int]) -
 
 def _typical_pattern(encoding: PointEncoding) -> int:
     low, high = encoding.allowed.units[0] if encoding.allowed.units else (0, 100)
-    return bits_of(float(low) + (float(high) - float(low)) / 3, encoding.shape.width)
+    value = float(low) + (float(high) - float(low)) / 3
+    return bits_of(value, encoding.shape.width)
