@@ -227,10 +227,10 @@ class SimulatedDevice:
             self.complaints.append(Complaint(rule, what, source))
             self.on_complaint(self.complaints[-1])
 
-    def complain_of(self, refusal: Refusal, rule: str = "") -> None:
+    def complain_of(self, refusal: Refusal) -> None:
         """Record a violation that was refused."""
         source = None if refusal.point is None else refusal.point.source
-        self.complain(rule or refusal.kind.replace("_", " "), refusal.why, source)
+        self.complain(refusal.kind.replace("_", " "), refusal.why, source)
 
     def _unreadable(self, area: Area, address: int) -> Refusal:
         points = self.layout.readers.get(area, {}).get(address, ())

@@ -217,14 +217,14 @@ def bus_view(device: Device, form: Form) -> BusView:
         for setting, codes in bus.serial.items()
         for number, meaning in codes.items()
     ]
-    responses = _linked_codes(bus.codes("responses"), "Tasks", form)
+    responses = _linked_codes(bus.codes("responses"), form)
     sections = (
         (
             "" if asks is None else f"{asks.kind.capitalize()}s",
             _answered(bus, form) if answered else _functions(device, form),
         ),
         ("Responses", responses),
-        ("Error values" if responses else "Exceptions", _linked_codes(bus.exceptions, "Tasks", form)),
+        ("Error values" if responses else "Exceptions", _linked_codes(bus.exceptions, form)),
         ("Messages", _messages(device, form)),
         ("Telegrams", _telegrams(device, form)),
         ("Serial settings", form.by_rows(("Setting", "Code", "Meaning"), serial)),
@@ -262,8 +262,8 @@ def _answered(bus: Bus, form: Form) -> str:
     return form.table(bus.functions, {**_code_columns(form), **answers})
 
 
-def _linked_codes(codes: tuple[Code, ...], head: str, form: Form) -> str:
-    return form.table(codes, {**_code_columns(form), head: lambda listed: _numbers(listed.answers)})
+def _linked_codes(codes: tuple[Code, ...], form: Form) -> str:
+    return form.table(codes, {**_code_columns(form), "Tasks": lambda listed: _numbers(listed.answers)})
 
 
 def _numbers(numbers: tuple[int, ...]) -> str:
