@@ -22,7 +22,13 @@ _TYPEWRITER = str.maketrans(
     {"\u201e": '"', "\u201c": '"', "\u201d": '"', "\u2019": "'", "\u2013": "-", "\u2026": "..."}
 )
 """Typographic characters that errata quote, and what every editor can show."""
+_GERMAN = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "Ä": "Ae", "Ö": "Oe", "Ü": "Ue", "ß": "ss"})
 _DROPPED_CATEGORIES = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
+
+
+def ascii_text(text: str) -> str:
+    """Return a text in ASCII: German umlauts as two letters, other letters without their accents, nothing else."""
+    return unicodedata.normalize("NFKD", text.translate(_GERMAN)).encode("ascii", "ignore").decode()
 
 
 def line(text: str) -> str:
@@ -103,10 +109,15 @@ def rust_string(text: str) -> str:
     """Return a Rust string literal with its quotes."""
     if _BARE.fullmatch(text):
         return f'"{text}"'
+    return f'"{_escaped(text)}"'
+
+
+def _escaped(text: str) -> str:
+    """Return text for a literal in double quotes of Rust or JavaScript."""
     cleaned = line(text).replace("\\", "\\\\").replace('"', '\\"')
-    if not cleaned.isprintable():
-        cleaned = "".join([char if char.isprintable() else f"\\u{{{ord(char):x}}}" for char in cleaned])
-    return f'"{cleaned}"'
+    if cleaned.isprintable():
+        return cleaned
+    return "".join([char if char.isprintable() else f"\\u{{{ord(char):x}}}" for char in cleaned])
 
 
 def toml_string(text: str) -> str:
@@ -123,10 +134,7 @@ def js_string(text: str) -> str:
     """Return a JavaScript string literal with its quotes, which is safe inside a page too."""
     if _BARE.fullmatch(text):
         return f'"{text}"'
-    cleaned = line(text).replace("\\", "\\\\").replace('"', '\\"')
-    if not cleaned.isprintable():
-        cleaned = "".join([char if char.isprintable() else f"\\u{{{ord(char):x}}}" for char in cleaned])
-    escaped = _SCRIPT.sub(lambda found: f"\\x{ord(found[0]):02x}", cleaned)
+    escaped = _SCRIPT.sub(lambda found: f"\\x{ord(found[0]):02x}", _escaped(text))
     return f'"{escaped}"'
 
 

@@ -6,7 +6,6 @@ The contents of a cell stay inside a text or a comment.
 from __future__ import annotations
 
 import re
-import unicodedata
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -17,10 +16,12 @@ import fieldscribe.language.keys  # noqa: F401  # it reads the descriptions of t
 from fieldscribe.families import family
 from fieldscribe.grouping import grouped
 from fieldscribe.language.load import as_yaml
-from fieldscribe.text import counted, line
+from fieldscribe.text import ascii_text, counted, line
 
-_GERMAN = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "Ä": "ae", "Ö": "oe", "Ü": "ue", "ß": "ss", "%": " percent "})
-_SYMBOLS = {"°": " deg ", "µ": "u", "φ": "phi", "ϕ": "phi", "Ω": "ohm", "+": " plus ", ">": " above ", "<": " below "}
+_SYMBOLS = str.maketrans(
+    {"°": " deg ", "µ": "u", "φ": "phi", "ϕ": "phi", "Ω": "ohm"}
+    | {"+": " plus ", ">": " above ", "<": " below ", "%": " percent "}
+)
 _ARTICLES = re.compile(r"the|an?|of|and|for|d(?:er|ie|as|em|en)|und|fuer|zu[rm]|von")
 _LONGEST_NAME, _LONGEST_COMMENT = 48, 400
 _KEYS = (
@@ -208,11 +209,7 @@ def snake(title: str, otherwise: str, *, articles: bool = False) -> str:
 
     Without `articles` it has no words such as `the` and `a`.
     """
-    text = title.translate(_GERMAN)
-    for symbol, word in _SYMBOLS.items():
-        text = text.replace(symbol, word)
-    plain = unicodedata.normalize("NFKD", text).encode("ascii", "ignore").decode().lower()
-    words = re.findall(r"[a-z0-9]+", plain)
+    words = re.findall(r"[a-z0-9]+", ascii_text(title.translate(_SYMBOLS)).lower())
     name = ""
     for word in [word for word in words if articles or not _ARTICLES.fullmatch(word)] or words:
         if name and len(name) + len(word) >= _LONGEST_NAME:

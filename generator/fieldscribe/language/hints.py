@@ -12,6 +12,7 @@ from fieldscribe.language.load import flow_text
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.suggestions import LANGUAGES, key_suggestion, suggest_bits
 from fieldscribe.schema_types import Form, Text, ValueShape
+from fieldscribe.text import ascii_text
 
 KEYS_PAGE = "see the key in descriptions/KEYS.md"
 _GROUP = "a group is a part: `group: …`, `space: …` and `points: […]`, below a line `---` or in a file under `parts`"
@@ -19,7 +20,6 @@ _MOST_COMPARED = 500
 _LONGEST_COMPARED = 80
 _TYPING_SLIP = 0.7
 """How similar keys must be; at 0.6 `precision` would be taken for `section`."""
-_GERMAN = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "Ä": "Ae", "Ö": "Oe", "Ü": "Ue", "ß": "ss"})
 
 
 def quoted(text: str) -> str:
@@ -93,11 +93,8 @@ def form_hint(value: str, form: Form) -> str:
     """Return how a text of this form is written."""
     if form is not forms.NAME:
         return form.hint
-    import unicodedata
-
-    spelled = value[:60].translate(_GERMAN)
-    plain = unicodedata.normalize("NFKD", spelled).encode("ascii", "ignore").decode()
-    suggestion = re.sub(r"[^a-z0-9]+", "_", re.sub(r"([a-z0-9])([A-Z])", r"\1_\2", plain).lower()).strip("_")
+    parted = re.sub(r"([a-z0-9])([A-Z])", r"\1_\2", ascii_text(value[:60]))
+    suggestion = re.sub(r"[^a-z0-9]+", "_", parted.lower()).strip("_")
     if value[:1].isdigit():
         return "a name starts with a letter: `speed_2`, not `2nd_speed`"
     return f"write `{suggestion}`" if re.fullmatch(form.pattern, suggestion) else form.hint
