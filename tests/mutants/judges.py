@@ -268,8 +268,16 @@ def conditions_around(text: str, line: int) -> list[str]:
     return opened
 
 
-TRANSPORTS = "transports"
-"""What judges the transports of Python in place of a device: their tests, as vectors do not reach a line."""
+SESSIONS, TRANSPORTS = "sessions", "transports"
+"""What judges a runtime beside the vectors: the tests that ask devices, or write what people do; those of a line."""
+_OF_PYTHON = {
+    SESSIONS: (
+        *("python", "python_bases", "python_can", "python_conditions", "python_dates", "python_frames"),
+        *("python_notations", "python_selections", "python_uss", "written_together", "long_texts"),
+    ),
+    TRANSPORTS: ("transports", "slow_transports"),
+}
+"""The files of tests that judge the runtime of Python."""
 
 
 class OfPython(Judge):
@@ -278,17 +286,20 @@ class OfPython(Judge):
     language = "python"
 
     def users(self, mutant: Mutant, build: tuple[str, ...]) -> list[str]:
-        """The devices, or the tests of transports for a transport."""
-        return [TRANSPORTS] if f"/{TRANSPORTS}/" in mutant.path else super().users(mutant, build)
+        """The devices, and for a runtime what its tests do; for a transport its tests, as vectors reach no line."""
+        if f"/{TRANSPORTS}/" in mutant.path:
+            return [TRANSPORTS]
+        return [*super().users(mutant, build), *([SESSIONS] if mutant.kind == RUNTIME else [])]
 
     def passes(self, device: str, build: Sequence[str]) -> bool:
         """Run it; a package that cannot be imported tells nothing."""
         del build
         folder = self.work / "python"
-        if device == TRANSPORTS:
-            files = sorted(ROOT.glob(f"tests/targets/python/test_*{TRANSPORTS}.py"))
-            words = (sys.executable, "-B", "-m", "pytest", "-q", "-x", *files)
-            return self.run(*words, environment={"FIELDSCRIBE_PACKAGES": folder}).returncode == 0
+        if device in _OF_PYTHON:
+            files = [ROOT / f"tests/targets/python/test_{each}.py" for each in _OF_PYTHON[device]]
+            options = ("-q", "-x", "-p", "no:cacheprovider", "-m", "not full" if device == SESSIONS else "")
+            words = (sys.executable, "-B", "-m", "pytest", *options, *files)
+            return self.run(*words, environment={"FIELDSCRIBE_PACKAGES": folder}, slow=True).returncode == 0
         done = self.run(sys.executable, "-B", ROOT / "tests/conformance", folder, device, self.vectors[device])
         if done.returncode and not done.stdout.strip():
             program = f"import sys; sys.path.insert(0, {str(folder)!r}); import {device}"
@@ -349,9 +360,8 @@ class OfRust(OfCompiled):
         return (self.work / "rust" / found[1],)
 
 
-SESSIONS = "sessions"
-"""What judges the runtime of TypeScript beside the vectors: the tests that ask devices, or write what people do."""
-_ASKING = "codecs", "notations", "bases", "selections", "sessions", "lines"
+_OF_TYPESCRIPT = "codecs", "errors", "notations", "bases", "selections", "sessions", "lines"
+"""The files of tests that judge the runtime of TypeScript beside the vectors."""
 
 
 class OfTypeScript(Judge):
@@ -376,7 +386,7 @@ class OfTypeScript(Judge):
         """Run it; a module that cannot be parsed tells nothing."""
         del build
         if device == SESSIONS:
-            files = [ROOT / f"tests/targets/typescript/test_typescript_{each}.py" for each in _ASKING]
+            files = [ROOT / f"tests/targets/typescript/test_typescript_{each}.py" for each in _OF_TYPESCRIPT]
             words = (sys.executable, "-B", "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", *files)
             packages = {"FIELDSCRIBE_PACKAGES": self.work / "typescript"}
             return self.run(*words, environment=packages, memory=resource.RLIM_INFINITY, slow=True).returncode == 0

@@ -8,6 +8,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from shutil import copytree
 from typing import Any
 
 from fieldscribe.model import Device
@@ -19,7 +20,10 @@ from support.places import ROOT
 
 def write_package(device: Device, out: Path) -> Path:
     """Generate the device's package and the runtime; return the folder to import them from."""
-    return generate(device, out, target) / "python"
+    folder = generate(device, out, target) / "python"
+    if changed := os.environ.get("FIELDSCRIBE_PACKAGES"):  # where mutants are judged
+        copytree(Path(changed) / "fieldscribe_runtime", folder / "fieldscribe_runtime", dirs_exist_ok=True)
+    return folder
 
 
 def imported(folder: Path, package: str) -> Iterator[Any]:

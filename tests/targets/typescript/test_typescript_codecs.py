@@ -15,10 +15,17 @@ PROGRAM = """
 import { KitchenSink } from "kitchen-sink";
 import { KitchenCodes } from "kitchen-codes";
 import { KitchenCan } from "kitchen-can";
+function why(work) {
+  try {
+    return work();
+  } catch (error) {
+    return error.message;
+  }
+}
 const [sink, codes, can] = [KitchenSink, KitchenCodes, KitchenCan].map((one) => Object.fromEntries(one.table.points));
 function told(expression) {
   try {
-    const value = new Function("sink", "codes", "can", `return ${expression}`)(sink, codes, can);
+    const value = new Function("sink", "codes", "can", "why", `return ${expression}`)(sink, codes, can, why);
     return typeof value === "bigint" ? `${value}n` : value === undefined ? null : value;
   } catch (error) {
     return error.status ?? String(error);
@@ -54,6 +61,18 @@ ROWS: list[tuple[str, Any]] = [
     ("can.nodeKey.encode('00:11:22:33:44')", "out_of_range"),
     ("codes.upperLimit.encode('inactive')", "wrong_type"),
     ("codes.lowerLimit.encode('inactive', { upperLimit: 100 })", "wrong_type"),
+    (
+        "why(() => codes.upperLimit.encode('inactive'))",
+        "upper_limit: takes a number or a special code, as in special.inactive, not 'inactive'",
+    ),
+    (
+        "why(() => codes.lowerLimit.encode('by_input'))",
+        "lower_limit: takes a number or a special code, as in special.name, not 'by_input'",
+    ),
+    (
+        "why(() => can.commandNumber.check(0xff))",
+        "command_number: raw 255 has not 8000h in the bits 8000h, as it must",
+    ),
     ("codes.upperLimit.decode(0).name", "inactive"),
     ("String(codes.voltage.decode(0xfff4))", "transducer_fault"),
     ("codes.mode.encode(9)", "unknown_value"),

@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 from fieldscribe.simulation import Simulated, simulated
 from fieldscribe.text import camel
+from support.blocks import Registers, served
 from support.node_device import NodeDevice, NodeError, bridged, node_device
 from support.toolchains import succeed, tool
 
@@ -105,6 +106,21 @@ def test_a_group_comes_in_few_requests_and_a_refused_point_costs_none(l200: tupl
     assert (found["baseFrequency"], found["A999"]["error"]["status"]) == (47.5, "no_access")
 
 
+def test_addresses_that_are_refused_between_points_are_not_asked_for_again(folder: Path) -> None:
+    """Only those: what a point has read is read across."""
+    line = Registers(dict.fromkeys({*range(0x1017, 0x101C)} - {0x101A}, 1))
+    over = {"kind": "tcp", "framing": "rtu"}
+    with served(line) as port, node_device(folder, L200, {**over, "port": port}, unit=1) as node:
+        for names, asked in (
+            (["frequencySource", "maximumFrequency"], [(0x1018, 4), (0x1018, 1), (0x101B, 1)]),
+            (["frequencySource", "maximumFrequency"], [(0x1018, 1), (0x101B, 1)]),
+            (["motorDirection", "runSource"], [(0x1017, 3)]),
+        ):
+            line.asked.clear()
+            node(None, "readMany", names, {"errors": "return"})
+            assert line.asked == asked
+
+
 def test_a_command_and_words_without_meaning(l200: tuple[Simulated, NodeDevice]) -> None:
     drive, node = l200
     node("enter", "send")
@@ -179,6 +195,15 @@ def test_a_parameter_is_kept_if_the_caller_says_so(folder: Path) -> None:
             drive.restart()
             assert node("maximumFrequency", "read") == left
         assert status_of(node, "controlWord", "write", 0, {"keep": True}) == "no_access"
+
+
+def test_a_word_beyond_the_link_is_told(folder: Path) -> None:
+    """A setpoint that no telegram carries is neither sent nor taken for written."""
+    with running(folder, MM4, link={"pkw": 127, "pzd": 1}) as (drive, node):
+        before = drive.requests
+        for call in (("mainSetpoint", "writeRaw", 1), ("mainActualValue", "readRaw"), (None, "readAt", "task", 1)):
+            assert status_of(node, *call) == "bad_link"
+        assert drive.requests == before
 
 
 def test_process_data_falls_back_to_nothing_after_a_failure(folder: Path) -> None:
