@@ -174,8 +174,10 @@ FIELDSCRIBE_ONCE fieldscribe_modbus_status fieldscribe_ask_script(const fieldscr
 /* The unit of a handle whose exchange is the script. */
 FIELDSCRIBE_ONCE fieldscribe_modbus_unit fieldscribe_called_unit(fieldscribe_vector *v)
 {
-    const fieldscribe_modbus_unit unit = {
-        NULL, &fieldscribe_ask_script, (uint8_t)fieldscribe_bits(v, "unit"), 0x7FU, 0U, false};
+    fieldscribe_modbus_unit unit =
+        FIELDSCRIBE_MODBUS_UNIT(NULL, &fieldscribe_ask_script, (uint8_t)fieldscribe_bits(v, "unit"));
+    fieldscribe_agree(v, unit.exception == 0U);
+    unit.exception = 0x7FU;
     fieldscribe_called = v;
     fieldscribe_done = 0U;
     return unit;

@@ -106,8 +106,10 @@ FIELDSCRIBE_ONCE fieldscribe_uss_unit fieldscribe_called_unit(fieldscribe_vector
 {
     static const uint16_t sent[256] = {0U};
     static uint16_t heard[256];
-    const fieldscribe_uss_unit unit = {&fieldscribe_called_line, &fieldscribe_ask_script, sent, heard,
-        (uint8_t)fieldscribe_bits(v, "unit"), 0x7FU};
+    fieldscribe_uss_unit unit = FIELDSCRIBE_USS_UNIT(
+        &fieldscribe_called_line, &fieldscribe_ask_script, sent, heard, (uint8_t)fieldscribe_bits(v, "unit"));
+    fieldscribe_agree(v, unit.error == 0U);
+    unit.error = 0x7FU;
     fieldscribe_called = v;
     fieldscribe_called_link = fieldscribe_read_link(v);
     fieldscribe_called_line.link = &fieldscribe_called_link;
