@@ -3,8 +3,8 @@
 import re
 from collections.abc import Sequence
 
+from fieldscribe.diagnostics import UnclearError
 from fieldscribe.text import line
-from fieldscribe.user_errors import UnclearError
 
 _SEPARATORS = re.compile(r"[\s,;:|\-]+")
 _MARK = re.compile(r"0[xX]|\\x|[hH]'")

@@ -15,9 +15,9 @@ from fieldscribe.conversation.encoding import encode_point, read_settings, read_
 from fieldscribe.conversation.meanings import Meanings
 from fieldscribe.conversation.refusals import amount
 from fieldscribe.conversation.selection import choose_point, choose_variants
+from fieldscribe.diagnostics import RefusedError, UnclearError
 from fieldscribe.model import Device, Point, Special
 from fieldscribe.pasted_numbers import HexError, parse_hex
-from fieldscribe.user_errors import RefusedError, UnclearError
 from hypothesis import given
 from hypothesis import strategies as st
 from support.models import (

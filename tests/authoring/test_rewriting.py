@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 from fieldscribe.authoring.formatting import rewrite
+from fieldscribe.diagnostics import UnclearError
 from fieldscribe.output.writing import replace
-from fieldscribe.user_errors import UnclearError
 
 
 def test_a_file_that_cannot_be_replaced_leaves_the_others(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

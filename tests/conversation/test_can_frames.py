@@ -13,13 +13,13 @@ from fieldscribe.conversation.encoding import encode_point, frames_for
 from fieldscribe.conversation.explanation import explain_point, sample_raw
 from fieldscribe.conversation.lookup import find
 from fieldscribe.conversation.meanings import quoted_text
+from fieldscribe.diagnostics import RefusedError, UnclearError
 from fieldscribe.families.can.frame_decoder import CanFrameDecoder
 from fieldscribe.families.can.frames import CanFrame, parse
 from fieldscribe.families.can.notation import read_frames, read_identifier
 from fieldscribe.families.decoded_frame import DecodedFrame, OpenRequests
 from fieldscribe.families.frame_results import FrameResult, Options
 from fieldscribe.model import Device, Role
-from fieldscribe.user_errors import RefusedError, UnclearError
 from hypothesis import given
 from hypothesis import strategies as st
 from support.asked import asked

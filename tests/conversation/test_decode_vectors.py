@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import pytest
 from fieldscribe.conversation.decoder import decode
 from fieldscribe.families.frame_results import FrameResult
-from fieldscribe.families.modbus import exchange as modbus
+from fieldscribe.families.modbus import frames as modbus
 from fieldscribe.families.modbus import profile_of
 from fieldscribe.families.uss import telegrams as uss
 from fieldscribe.families.uss.telegrams import Link

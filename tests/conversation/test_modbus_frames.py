@@ -11,6 +11,7 @@ from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.conversation.decoder import StreamDecoder
 from fieldscribe.conversation.encoding import frames_for
 from fieldscribe.conversation.explanation import read_text
+from fieldscribe.diagnostics import RefusedError
 from fieldscribe.families.frame_results import FrameResult, Options, refused
 from fieldscribe.families.modbus import SPACES
 from fieldscribe.families.modbus.frame_builder import words_of, write_requests
@@ -18,7 +19,6 @@ from fieldscribe.families.modbus.frame_decoder import ModbusFrameDecoder
 from fieldscribe.families.modbus.frames import crc16, data_size, frame
 from fieldscribe.model import Code, Place
 from fieldscribe.pasted_numbers import typed_bytes
-from fieldscribe.user_errors import RefusedError
 from hypothesis import given
 from hypothesis import strategies as st
 from support.described import kitchen_sink, made

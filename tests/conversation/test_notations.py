@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from fieldscribe.conversation.encoding import encode_point
 from fieldscribe.conversation.meanings import Meanings
-from fieldscribe.user_errors import RefusedError
+from fieldscribe.diagnostics import RefusedError
 from support.described import kitchen_sink
 
 POINTS = {point.name: point for point in kitchen_sink().points}

@@ -11,10 +11,10 @@ from fieldscribe.conversation.encoding import encode_point, frames_for, read_set
 from fieldscribe.conversation.explanation import explain_point, sample_raw
 from fieldscribe.conversation.lookup import find
 from fieldscribe.conversation.selection import choose_point, choose_variants
+from fieldscribe.diagnostics import UnclearError
 from fieldscribe.families.frame_results import FrameResult, Options
 from fieldscribe.families.uss.frame_decoder import UssFrameDecoder
 from fieldscribe.families.uss.telegrams import Link, Request, parse, telegram
-from fieldscribe.user_errors import UnclearError
 from hypothesis import given
 from hypothesis import strategies as st
 from support.asked import asked

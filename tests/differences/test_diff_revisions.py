@@ -6,8 +6,8 @@ import os
 from pathlib import Path
 
 import pytest
+from fieldscribe.diagnostics import UnclearError
 from fieldscribe.differences.sides import copied
-from fieldscribe.user_errors import UnclearError
 from support.diff_command import EDITED, Diff, commit
 
 

@@ -22,7 +22,7 @@ from fieldscribe.families.can.dbc_signals import decimal, point_signals
 from fieldscribe.families.can.frames import CanFrame, Receiver, build, identifier, parse
 from fieldscribe.model import Device, Entry, Enum, Message, Point, Role, Special, Unit
 from fieldscribe.text import dbc_string
-from fieldscribe.wording.exact import fixed_rule
+from fieldscribe.wording.numbers import fixed_rule
 from support.described import made, shipped
 from support.models import named, point, sample_device, titles
 

@@ -9,8 +9,7 @@ from typing import Any
 import pytest
 from fieldscribe.conditions import Comparison, Condition
 from fieldscribe.families.modbus import FUNCTIONS, ModbusBus, Profile, profile_of
-from fieldscribe.families.modbus.exchange import Request, build, parse_reply, parse_request
-from fieldscribe.families.modbus.frames import Flaw, crc16, frame
+from fieldscribe.families.modbus.frames import Flaw, Request, build, crc16, frame, parse_reply, parse_request
 from fieldscribe.families.modbus.reading import plan_blocks
 from fieldscribe.families.modbus.remarks import exception_text, flaw_text
 from fieldscribe.families.modbus.targets.wire import ModbusWire

@@ -16,7 +16,7 @@ from fieldscribe.conversation.meanings import Meanings
 from fieldscribe.resources import render
 from fieldscribe.targets import c, docs, rust
 from fieldscribe.wording import meaning_text
-from fieldscribe.wording.exact import rounded
+from fieldscribe.wording.numbers import rounded
 from support.described import kitchen_sink
 from support.models import changed, named
 from support.places import TESTS

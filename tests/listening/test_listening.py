@@ -14,6 +14,7 @@ from unittest.mock import MagicMock, PropertyMock
 import can
 import pytest
 from fieldscribe.cli import main
+from fieldscribe.diagnostics import UnclearError
 from fieldscribe.families import family
 from fieldscribe.families.frame_results import Options
 from fieldscribe.families.modbus.frames import crc16
@@ -22,7 +23,6 @@ from fieldscribe.listening.chunks import BYTES, STREAM, Chunk, serial_chunks
 from fieldscribe.listening.exchanges import Exchange, Statistics
 from fieldscribe.listening.listener import Listener, Station
 from fieldscribe.live.lines import read_line
-from fieldscribe.user_errors import UnclearError
 from support.captured import classic, segment
 from support.described import shipped
 

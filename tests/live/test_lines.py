@@ -9,10 +9,9 @@ from pathlib import Path
 
 import pytest
 from fieldscribe.cli.live_options import line_of
-from fieldscribe.diagnostics import Report
+from fieldscribe.diagnostics import Report, UnclearError
 from fieldscribe.families import families
 from fieldscribe.live.lines import Station, examples, families_of, read_line, read_project, schemes_of
-from fieldscribe.user_errors import UnclearError
 from fieldscribe.vendoring import project_file as vendoring
 from support.small_drive import Output
 

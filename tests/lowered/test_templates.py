@@ -18,12 +18,11 @@ from fieldscribe.model import Device, Enum, Erratum, Limit, Place, Point, Specia
 from fieldscribe.resources import render
 from fieldscribe.targets import c, python, rust, typescript
 from fieldscribe.targets.c import point_templates
-from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplate, placeholders
-from fieldscribe.targets.python import enums as python_enums
-from fieldscribe.targets.python import points_module
+from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplate, TextTemplates, placeholders
+from fieldscribe.targets.python import views as python_views
 from fieldscribe.targets.rust import conformance, point_macros
 from fieldscribe.targets.rust import enums as rust_enums
-from fieldscribe.targets.typescript import points as typescript_points
+from fieldscribe.targets.typescript import views as typescript_views
 from fieldscribe.text import c_comment, line
 from support.described import SHIPPED, made, shipped
 from support.models import (
@@ -81,7 +80,7 @@ def test_other_rare_signs_of_a_text_are_no_placeholders() -> None:
 
 
 LANGUAGES = (c, python, rust, typescript)
-FILLED = (point_templates, points_module, python_enums, conformance, point_macros, rust_enums, typescript_points)
+FILLED = (point_templates, python_views, conformance, point_macros, rust_enums, typescript_views)
 """The modules that fill templates."""
 
 QUICK = ("kitchen_sink", "kitchen_uss", "kitchen_can")
@@ -114,8 +113,7 @@ def unshared(device: Device, monkeypatch: pytest.MonkeyPatch) -> dict[str, str]:
         patch.setattr(TemplateKeys, "of", lambda *_: next(numbers))
         for module in FILLED:
             patch.setattr(module, "placeholders", tuple)
-        for module in (python_enums, rust_enums):
-            patch.setattr(module, "id", lambda _: object(), raising=False)
+        patch.setattr(TextTemplates, "fill", lambda _, _key, fields, lay_out: TextTemplate(lay_out()).fill(fields))
         return texts(device)
 
 

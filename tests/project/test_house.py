@@ -22,7 +22,7 @@ HOUSE = Path(fieldscribe.__file__).parent
 ROOMS = (
     (
         "words, places, files of the package",
-        """__init__ user_errors pasted_numbers text grouping
+        """__init__ pasted_numbers text grouping
         diagnostics schema_types safe_files resources""",
     ),
     ("the neutral model", "conditions model code_view"),
@@ -65,7 +65,7 @@ NAMES_A_FAMILY = {
     "cli.import_kinds": "CAN databases are of one",
     "importing.dbc": "CAN databases are of one",
     "listening.captures": "captures of CAN tools are of one",
-    "user_errors": "a library of Python is called as one",
+    "diagnostics": "a library of Python is called as one",
     "language.keys.files": "an example of a whole file",
     "language.keys.meaning": "an example of an enum",
     "language.keys.places": "examples of whole files and messages",

@@ -15,9 +15,9 @@ from typing import Any
 
 import pytest
 from fieldscribe.cli import main
+from fieldscribe.diagnostics import UnclearError
 from fieldscribe.simulation import Simulated
 from fieldscribe.simulation.bench import Bench, carry_out
-from fieldscribe.user_errors import UnclearError
 
 L200 = "hitachi_l200"
 

@@ -10,11 +10,10 @@ from pathlib import Path
 
 import pytest
 from fieldscribe.cli import main
-from fieldscribe.diagnostics import Report
+from fieldscribe.diagnostics import Report, UnclearError
 from fieldscribe.model import Device
 from fieldscribe.output.manifests import VENDORED, made_of
 from fieldscribe.pipeline import load_device
-from fieldscribe.user_errors import UnclearError
 from fieldscribe.vendoring.requests import LANGUAGES, LICENCE, CodeRequest, files_of
 from fieldscribe.vendoring.selection import select
 from support.c_device import PROGRAMS, WARNINGS

@@ -7,7 +7,7 @@ from fractions import Fraction
 import pytest
 from fieldscribe import wording
 from fieldscribe.model import Factor
-from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text, shortest, value_multiple
+from fieldscribe.wording.numbers import exact, fixed_rule, hex_text, number_text, shortest, value_multiple
 from support.models import HERTZ, named, point, sample_device, scaled, value_of
 
 DEVICE = sample_device()

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from fieldscribe.authoring.starting import is_schema
-from fieldscribe.diagnostics import Report
+from fieldscribe.diagnostics import Report, UnclearError
 from fieldscribe.language.canonical import OddError, canonical, comments, unbroken
 from fieldscribe.language.files import parts_of
 from fieldscribe.language.key_tables import schema_text
@@ -17,7 +17,6 @@ from fieldscribe.language.nodes import MOST_BYTES, SourceFile, decoded
 from fieldscribe.output.writing import replace
 from fieldscribe.pipeline import DEVICE_FILE
 from fieldscribe.safe_files import State, read_regular, shown_path, state_of
-from fieldscribe.user_errors import UnclearError
 
 _SCHEMA_LINE = re.compile(r"#[ \t]*yaml-language-server:[ \t]*\$schema=((?:\.\./)*[\w.-]+\.json)[ \t]*")
 _SUFFIX = ".fieldscribe-new"

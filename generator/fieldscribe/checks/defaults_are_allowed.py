@@ -3,7 +3,7 @@
 from fieldscribe.model import Point
 from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.points import ResolvedPoint
-from fieldscribe.wording.exact import fixed_rule, number_text
+from fieldscribe.wording.numbers import fixed_rule, number_text
 
 _LONGEST, _MOST_NAMES = 30, 12
 

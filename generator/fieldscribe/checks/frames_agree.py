@@ -11,7 +11,7 @@ from fieldscribe.model import Frame, Point
 from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.errata import PrintedFact
 from fieldscribe.resolve.frames import LocatedFrame
-from fieldscribe.wording.frames import units_text
+from fieldscribe.wording.numbers import units_text
 
 Words = Mapping[tuple[str, int, int], tuple[int, ...]]
 """The words of a frame, by space or telegram, address, and the index beside it (0 without one)."""

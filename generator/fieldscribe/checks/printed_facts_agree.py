@@ -19,7 +19,7 @@ from fieldscribe.resolve.errata import PrintedFact, same
 from fieldscribe.resolve.points import ResolvedPoint
 from fieldscribe.resolve.special_codes import without_codes
 from fieldscribe.resolve.values import WORD_BITS, integer, number
-from fieldscribe.wording.exact import fixed_rule, number_text
+from fieldscribe.wording.numbers import fixed_rule, number_text
 
 _LOW, _HIGH, _WRITE = "low_", "high_", "write_"
 _FLAG_WORDS = {"mask": "mask", "bit": "bit", "active": "active value"}

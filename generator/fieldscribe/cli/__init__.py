@@ -133,7 +133,7 @@ def _run(argv: list[str]) -> int:
     if not argv or argv[0] not in COMMANDS:
         return _overview(argv)
     from fieldscribe.cli.common import StopError, usage_error  # `--help` and `--version` start without these
-    from fieldscribe.user_errors import UnclearError
+    from fieldscribe.diagnostics import UnclearError
 
     command = command_module(argv[0])
     parser = _parser(f"fieldscribe {argv[0]}", COMMANDS[argv[0]], command.EXAMPLE)
@@ -160,7 +160,7 @@ def _unrecognised(unknown: list[str], parser: ArgumentParser) -> str:
     """Return the message for unknown arguments, with near options."""
     from difflib import get_close_matches
 
-    from fieldscribe.user_errors import did_you_mean
+    from fieldscribe.diagnostics import did_you_mean
 
     options = [name for action in parser._actions for name in action.option_strings]  # argparse offers no other way
     wrong = [word.partition("=")[0] for word in unknown if word.startswith("-")]

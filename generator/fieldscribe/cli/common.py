@@ -14,12 +14,11 @@ from typing import TYPE_CHECKING, Any, TextIO, TypeVar
 
 from fieldscribe import pipeline
 from fieldscribe.cli.terminal import FINDINGS, USAGE, print_lines
-from fieldscribe.diagnostics import Report, as_data, as_lines, split_lines, summary, visible
+from fieldscribe.diagnostics import Report, UnclearError, as_data, as_lines, did_you_mean, split_lines, summary, visible
 from fieldscribe.pipeline import DEVICE_FILE, device_files_below, find_devices
 from fieldscribe.resources import descriptions_dir
 from fieldscribe.safe_files import Inputs, read_regular
 from fieldscribe.text import shortened
-from fieldscribe.user_errors import UnclearError, did_you_mean
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device

@@ -17,11 +17,10 @@ from fieldscribe.cli.common import StopError, add_device, add_format, add_repeat
 from fieldscribe.cli.frame_options import add_family_options, add_framing, add_with, options_of, placed, settings_of
 from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE, is_coloured, print_rows
 from fieldscribe.conversation.decoder import StreamDecoder, frame_decoder
-from fieldscribe.diagnostics import visible
+from fieldscribe.diagnostics import UnclearError, visible
 from fieldscribe.families.frame_results import FrameResult, bits_label
 from fieldscribe.model import Device
-from fieldscribe.user_errors import UnclearError
-from fieldscribe.wording.frames import spaced
+from fieldscribe.wording.numbers import spaced
 
 EXAMPLE = """examples:
   fieldscribe decode hitachi_l200 "05 06 10 28 01 F4 0C 91"

@@ -9,10 +9,9 @@ from fieldscribe.cli.frame_options import add_family_options, add_framing, add_w
 from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE, print_lines
 from fieldscribe.conversation.encoding import Encoded, encode_point, frames_for
 from fieldscribe.conversation.selection import choose_point
-from fieldscribe.diagnostics import visible
+from fieldscribe.diagnostics import RefusedError, visible
 from fieldscribe.families.frame_results import BuiltFrames, Options
 from fieldscribe.model import Device
-from fieldscribe.user_errors import RefusedError
 
 EXAMPLE = """examples:
   fieldscribe encode hitachi_l200 A020 "50 Hz"

@@ -6,10 +6,10 @@ from fractions import Fraction
 from fieldscribe.cli.common import StopError, add_repeated
 from fieldscribe.conversation.encoding import read_settings
 from fieldscribe.conversation.selection import at_bases
+from fieldscribe.diagnostics import RefusedError, UnclearError
 from fieldscribe.families import Family, families, family
 from fieldscribe.families.frame_results import Options
 from fieldscribe.model import Device
-from fieldscribe.user_errors import RefusedError, UnclearError
 
 
 def add_with(parser: ArgumentParser) -> None:

@@ -16,7 +16,7 @@ from fieldscribe.cli.common import StopError, add_descriptions, add_repeated, du
 from fieldscribe.cli.frame_options import add_family_options, add_with, options_of, placed, settings_of
 from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE
 from fieldscribe.conversation.decoder import logged_frame
-from fieldscribe.diagnostics import visible
+from fieldscribe.diagnostics import UnclearError, visible
 from fieldscribe.families import family
 from fieldscribe.listening.captures import chunks_of
 from fieldscribe.listening.chunks import Chunk, timed
@@ -28,7 +28,6 @@ from fieldscribe.live.lines import Station as NamedStation
 from fieldscribe.model import Device
 from fieldscribe.pasted_numbers import HexError
 from fieldscribe.text import counted, shortened
-from fieldscribe.user_errors import UnclearError
 
 EXAMPLE = """examples:
   fieldscribe listen hitachi_l200 --capture plant.pcapng

@@ -12,7 +12,7 @@ from fieldscribe.diagnostics import visible
 from fieldscribe.model import Device, Point
 from fieldscribe.search import summary_of
 from fieldscribe.text import csv_cell, line
-from fieldscribe.wording.exact import hex_text
+from fieldscribe.wording.numbers import hex_text
 
 EXAMPLE = """examples:
   fieldscribe list

@@ -15,13 +15,12 @@ from typing import TYPE_CHECKING, NamedTuple
 from fieldscribe.cli.common import StopError, add_device, add_repeated, duration, open_device, repeats
 from fieldscribe.cli.frame_options import placed
 from fieldscribe.cli.terminal import FINDINGS, USAGE
-from fieldscribe.diagnostics import visible
+from fieldscribe.diagnostics import did_you_mean, visible
 from fieldscribe.live.connection import AnyDevice, Connection, FieldscribeError, advice
 from fieldscribe.live.lines import NAME, LineAddress, Project, Station, read_line, read_project
 from fieldscribe.live.readings import in_words
 from fieldscribe.model import Device
 from fieldscribe.text import shortened
-from fieldscribe.user_errors import did_you_mean
 
 if TYPE_CHECKING:
     from fieldscribe.live.snapshots import Snapshot

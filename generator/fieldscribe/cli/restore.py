@@ -11,14 +11,13 @@ from fieldscribe.cli.live_options import LINES, Live, add_live, add_pairs, add_u
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
 from fieldscribe.cli.write import ask
 from fieldscribe.conversation.selection import choose_point
-from fieldscribe.diagnostics import visible
+from fieldscribe.diagnostics import RefusedError, visible
 from fieldscribe.live.connection import FieldscribeError
 from fieldscribe.live.restoring import Journal, Order, interrupted, ordered, refusals
 from fieldscribe.live.snapshots import Snapshot, is_setting, read_snapshot, settings_of
 from fieldscribe.live.writing import Planner, Write, carry_out, in_requests
 from fieldscribe.model import Point
 from fieldscribe.text import counted
-from fieldscribe.user_errors import RefusedError
 
 EXAMPLE = f"""examples:
   fieldscribe restore before.json --dry-run

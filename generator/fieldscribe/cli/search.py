@@ -5,11 +5,10 @@ from collections.abc import Sequence
 
 from fieldscribe.cli import common
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
-from fieldscribe.diagnostics import Report, place_text, visible
+from fieldscribe.diagnostics import Report, did_you_mean, place_text, visible
 from fieldscribe.pipeline import load_analysis
 from fieldscribe.search import Entry, Hit, entries_of, near_words, search
 from fieldscribe.text import shortened
-from fieldscribe.user_errors import did_you_mean
 
 EXAMPLE = """examples:
   fieldscribe search Hochlaufzeit

@@ -24,11 +24,10 @@ from fieldscribe.cli.common import (
     usage_error,
 )
 from fieldscribe.cli.terminal import FINDINGS, FINE
-from fieldscribe.diagnostics import visible
+from fieldscribe.diagnostics import UnclearError, visible
 from fieldscribe.simulation.bench import Bench, BrokenError, carry_out, read_bench
 from fieldscribe.simulation.line import KINDS
 from fieldscribe.simulation.servers import serve
-from fieldscribe.user_errors import UnclearError
 
 _PLACES = ("tcp", "serial", "can")
 _USUAL_TIME = 1.0

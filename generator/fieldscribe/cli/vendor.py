@@ -19,11 +19,10 @@ from fieldscribe.cli.common import (
 )
 from fieldscribe.cli.generate import print_waiting
 from fieldscribe.cli.terminal import FINDINGS, FINE
-from fieldscribe.diagnostics import Report, visible
+from fieldscribe.diagnostics import Report, UnclearError, visible
 from fieldscribe.language.keys.forms import ID
 from fieldscribe.output.writing import update_depfile
 from fieldscribe.safe_files import Inputs, read_regular
-from fieldscribe.user_errors import UnclearError
 from fieldscribe.vendoring.deliveries import Delivery, Order, compare, deliver, leftovers, refuse_duplicates
 from fieldscribe.vendoring.project_file import NAME, read_project
 from fieldscribe.vendoring.requests import LANGUAGE_OF, LANGUAGES, CodeRequest

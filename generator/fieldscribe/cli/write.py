@@ -6,9 +6,8 @@ from argparse import ArgumentParser, Namespace
 from fieldscribe.cli.common import StopError, add_format, print_json
 from fieldscribe.cli.live_options import LINES, Live, add_live, add_unit, add_writing, opened
 from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE, print_lines
-from fieldscribe.diagnostics import Line, visible
+from fieldscribe.diagnostics import Line, RefusedError, visible
 from fieldscribe.live.writing import Planner, Write, carry_out, in_requests
-from fieldscribe.user_errors import RefusedError
 
 EXAMPLE = f"""examples:
   fieldscribe write hitachi_l200 A020=50 --line tcp://192.168.0.20

@@ -22,8 +22,7 @@ from fieldscribe.families.frame_results import Item
 from fieldscribe.model import Command, Place, Point
 from fieldscribe.text import counted, line
 from fieldscribe.wording import address_text, fixed_text, title_text
-from fieldscribe.wording.exact import hex_text
-from fieldscribe.wording.frames import element_text, hex_words, span_text, word_text
+from fieldscribe.wording.numbers import element_text, hex_text, hex_words, span_text, word_text
 
 _MOST_WORDS = 16
 """The most words without a point that are printed."""

@@ -16,8 +16,7 @@ from fieldscribe.families.frame_results import FrameResult, Item, Options
 from fieldscribe.model import Device
 from fieldscribe.text import line
 from fieldscribe.wording import label
-from fieldscribe.wording.exact import hex_text
-from fieldscribe.wording.frames import misprint_text
+from fieldscribe.wording.numbers import hex_text, misprint_text
 
 _ITEMS: Mapping[type, Callable[[DecodeState, Any], Iterable[Item]]] = {
     decoded_frame.AddressSpan: span_items,

@@ -18,13 +18,13 @@ from fieldscribe.arithmetic.words import mask_of, with_fixed
 from fieldscribe.conversation.meanings import Meanings, raw_form
 from fieldscribe.conversation.refusals import amount_with_unit, refusal
 from fieldscribe.conversation.selection import absence, choose_point
+from fieldscribe.diagnostics import RefusedError, UnclearError, did_you_mean
 from fieldscribe.families import family
 from fieldscribe.families.frame_results import BuiltFrames, Options
 from fieldscribe.language.numbers import NumberError, parse_number
 from fieldscribe.language.units import factor_between
 from fieldscribe.model import Device, Flag, Point
 from fieldscribe.text import line, shortened
-from fieldscribe.user_errors import RefusedError, UnclearError, did_you_mean
 from fieldscribe.wording import label
 
 _MEASURE = re.compile(r"([+-]?[0-9.,]+(?:[eE][+-]?[0-9]+)?)\s*(?![eE][+-]?[0-9])([^\s0-9.,].{0,30})")

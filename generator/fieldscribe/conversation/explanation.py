@@ -19,7 +19,7 @@ from fieldscribe.language.units import shipped, shipped_unit
 from fieldscribe.model import Code, Command, Device, Erratum, Message, Point, Step, SteppedCommand
 from fieldscribe.pasted_numbers import number_of as typed_number
 from fieldscribe.text import line
-from fieldscribe.wording.exact import hex_text, rounded
+from fieldscribe.wording.numbers import hex_text, rounded
 from fieldscribe.wording.rules import run_text, steps_texts
 
 _ROWS = {

@@ -6,13 +6,12 @@ from difflib import get_close_matches
 from operator import itemgetter, ne
 from typing import NamedTuple
 
+from fieldscribe.diagnostics import did_you_mean, either
 from fieldscribe.families import family
 from fieldscribe.model import Device, Place, Point
 from fieldscribe.pasted_numbers import number_of
 from fieldscribe.text import line
-from fieldscribe.user_errors import did_you_mean, either
-from fieldscribe.wording.exact import hex_text
-from fieldscribe.wording.frames import word_text
+from fieldscribe.wording.numbers import hex_text, word_text
 
 _ELEMENT = re.compile(r"([^\[\]]+)\[([0-9]{1,5})\]")
 _BEHIND_CODE = re.compile(r"[\[.: ]")

@@ -21,7 +21,7 @@ from fieldscribe.diagnostics import visible
 from fieldscribe.families.frame_results import Bits, bits_label
 from fieldscribe.model import Device, Entry, Flag, Point, Text
 from fieldscribe.text import line
-from fieldscribe.wording.exact import decimal_places, number_text, rounded, shortest
+from fieldscribe.wording.numbers import decimal_places, number_text, rounded, shortest
 
 _MOST_SETTINGS = 256
 """How many numbers of the points that a scale needs are remembered, with what they make of it."""

@@ -8,11 +8,11 @@ from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError, Settings
 from fieldscribe.arithmetic.words import with_fixed
 from fieldscribe.conversation.selection import points_by_name
+from fieldscribe.diagnostics import RefusedError
 from fieldscribe.model import Device, Enum, Point, Special
 from fieldscribe.text import line, shortened
-from fieldscribe.user_errors import RefusedError
 from fieldscribe.wording import label
-from fieldscribe.wording.exact import number_text
+from fieldscribe.wording.numbers import number_text
 
 _MOST_DIGITS = 12
 _MOST_NAMES = 30

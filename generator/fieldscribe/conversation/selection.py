@@ -10,10 +10,10 @@ from difflib import get_close_matches
 from fieldscribe import wording
 from fieldscribe.conditions import absent
 from fieldscribe.conversation.lookup import Match, advice, find
+from fieldscribe.diagnostics import UnclearError, did_you_mean
 from fieldscribe.language.numbers import NumberError, parse_integer
 from fieldscribe.model import Base, Device, Place, Point, SteppedCommand, Terms
 from fieldscribe.text import line, shortened
-from fieldscribe.user_errors import UnclearError, did_you_mean
 from fieldscribe.wording import label
 
 

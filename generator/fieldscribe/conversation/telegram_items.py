@@ -10,7 +10,7 @@ from fieldscribe.conversation.point_items import PointFormatter
 from fieldscribe.families.decoded_frame import Layout, Masks, Piece, ProcessData
 from fieldscribe.families.frame_results import Item
 from fieldscribe.model import Device, Point
-from fieldscribe.wording.frames import hex_words, word_text
+from fieldscribe.wording.numbers import hex_words, word_text
 
 
 def process_items(state: DecodeState, data: ProcessData) -> Iterator[Item]:

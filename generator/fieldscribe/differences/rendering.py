@@ -10,7 +10,7 @@ from fieldscribe.differences.comparison import Difference
 from fieldscribe.facts.table import DOCS
 from fieldscribe.text import markdown
 from fieldscribe.wording import without_lines
-from fieldscribe.wording.exact import hex_text
+from fieldscribe.wording.numbers import hex_text
 
 _MOST_NAMES = 12
 _PLURALS = {"erratum": "errata"}

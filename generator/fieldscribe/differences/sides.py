@@ -9,7 +9,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
-from fieldscribe.diagnostics import Report, Span
+from fieldscribe.diagnostics import Report, Span, UnclearError
 from fieldscribe.differences.described import Described
 from fieldscribe.export import export_model
 from fieldscribe.facts.devices import FORMAT, device_table
@@ -18,7 +18,6 @@ from fieldscribe.families import FAMILIES
 from fieldscribe.language.nodes import MOST_BYTES
 from fieldscribe.pipeline import find_devices, is_new, load_analysis
 from fieldscribe.safe_files import read_regular, shown_path
-from fieldscribe.user_errors import UnclearError
 
 _MOST_MODEL_BYTES = 256 << 20
 _MOST_FILES = 10_000

@@ -23,7 +23,7 @@ from fieldscribe.model import (
     item_of,
     type_info,
 )
-from fieldscribe.wording.exact import fixed_rule, number_text, value_multiple
+from fieldscribe.wording.numbers import fixed_rule, number_text, value_multiple
 
 _MOST_REPEATS = 8
 _MOST_DIGITS = 1000

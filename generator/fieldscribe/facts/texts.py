@@ -10,7 +10,7 @@ from fieldscribe.facts.table import Context, Row
 from fieldscribe.families import family
 from fieldscribe.model import Device, Point, Source
 from fieldscribe.text import counted
-from fieldscribe.wording.exact import hex_text
+from fieldscribe.wording.numbers import hex_text
 
 _KINDS = {"u": "unsigned", "s": "signed, two's complement", "f": "IEEE 754 floating point"}
 

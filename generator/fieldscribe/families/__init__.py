@@ -7,7 +7,7 @@ A family is one folder here and one line in `FAMILIES`. No code outside the fold
 - `description.py`: the keys that only this family has (`KEYS`), and the text of a new description.
 - `reading.py`: `READING` turns these keys into facts of the model.
 - `checks.py`: `CHECKS` report what only this family can get wrong; `read` reads a worked example.
-- `frames.py` (Modbus also `exchange.py`; USS `telegrams.py`) builds and parses bytes; pure functions.
+- `frames.py` (USS: `telegrams.py`) builds and parses bytes; pure functions.
 - `frame_decoder.py`: `decoder_of(device, options)` decodes pasted frames; `remarks.py` has longer lists of sentences.
 - `frame_builder.py`: `frames_for`, `read_text` and `way_to_write` build the frames that read and write a point.
 - `lines.py`: the kinds of lines as `SCHEMES` with their settings, the functions that open them, and the cutter that
@@ -19,10 +19,10 @@ To add a function of a bus:
 
 1. Add a row to the table of the protocol: `FUNCTIONS` in `modbus/__init__.py`, or `_WRITE_TASKS` and `RESPONSE_WIDTHS`
    in `uss/telegrams.py`. Checks, profiles, generated tables and the vectors of all devices follow from it.
-2. If its bytes have a new form, add that to the module that builds and parses them (Modbus: `exchange.py`, and the
-   lengths in `frames.py`), and to `frame_decoder.py`. The runtimes in `templates/<target>/runtime` have the same form
-   once more, each in its language. A number beyond the others changes the C profile: raise
-   `FIELDSCRIBE_MODBUS_FUNCTIONS` and `..._INTERFACE`, which `templates/c/modbus.h.j2` asks for.
+2. If its bytes have a new form, add that to `frames.py` (USS: `telegrams.py`) and to `frame_decoder.py`. The runtimes
+   in `templates/<target>/runtime` have the same form once more, each in its language. A number beyond the others
+   changes the C profile: raise `FIELDSCRIBE_MODBUS_FUNCTIONS` and `..._INTERFACE`, which `templates/c/modbus.h.j2`
+   asks for.
 3. Add its requests and replies to `targets/vectors.py`: the vectors show where a language differs.
 
 A family leaves out the parts that it does not need; the caller of a part documents its interface.

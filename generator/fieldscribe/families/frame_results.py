@@ -7,10 +7,10 @@ from dataclasses import dataclass, field, fields
 from types import MappingProxyType
 from typing import Any, NamedTuple, Protocol
 
+from fieldscribe.diagnostics import RefusedError
 from fieldscribe.model import Bus, Point
-from fieldscribe.user_errors import RefusedError
 from fieldscribe.wording import label
-from fieldscribe.wording.frames import units_text
+from fieldscribe.wording.numbers import units_text
 
 
 @dataclass(frozen=True, slots=True)

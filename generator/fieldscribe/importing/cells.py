@@ -10,7 +10,7 @@ from fractions import Fraction
 from functools import cache
 from typing import NamedTuple
 
-from fieldscribe.wording.exact import number_text
+from fieldscribe.wording.numbers import number_text
 
 _BREAKS = re.compile(r"\s*<\s*(?:br|/?li|/?ul|/?p)\b[^<>]{0,40}>\s*", re.IGNORECASE)
 _TAGS = re.compile(r"<\s*/?\s*[a-zA-Z][^<>]{0,80}>")

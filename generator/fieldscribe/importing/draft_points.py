@@ -10,7 +10,7 @@ from fieldscribe.importing.cells import Address, one_line, phrase
 from fieldscribe.importing.draft_text import DraftPoint, label_map, scalar
 from fieldscribe.importing.headings import Columns
 from fieldscribe.importing.readers import Row
-from fieldscribe.wording.exact import hex_text, number_text
+from fieldscribe.wording.numbers import hex_text, number_text
 
 _MODICON_SPACES = {"0": "coil", "1": "discrete", "3": "input", "4": "holding"}
 """The spaces by the first digit of a Modicon reference."""

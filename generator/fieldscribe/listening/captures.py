@@ -5,9 +5,9 @@ from collections.abc import Callable, Iterator
 from io import SEEK_END, BufferedReader, TextIOWrapper
 from typing import Any
 
+from fieldscribe.diagnostics import UnclearError
 from fieldscribe.listening.chunks import MESSAGE, Chunk, Packet
 from fieldscribe.listening.packets import Packets, is_packet_file, read_packets
-from fieldscribe.user_errors import UnclearError
 
 _LONGEST_LINE = 1 << 16
 _ENOUGH = 1000

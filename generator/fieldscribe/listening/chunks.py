@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Any, NamedTuple
 
+from fieldscribe.diagnostics import UnclearError
 from fieldscribe.live.lines import LineAddress
 from fieldscribe.pasted_numbers import parse_hex
-from fieldscribe.user_errors import UnclearError
 
 BYTES, STREAM, MESSAGE, SILENT = "bytes", "stream", "message", ""
 """The kind of a chunk: serial bytes, bytes of a network connection, a message with an identifier, or nothing."""

@@ -12,7 +12,7 @@ from fieldscribe.families.frame_results import FrameResult, Item
 from fieldscribe.listening.chunks import Cut
 from fieldscribe.model import Device
 from fieldscribe.text import counted
-from fieldscribe.wording.frames import spaced
+from fieldscribe.wording.numbers import spaced
 
 _MOST_BYTES = 16
 """The most bytes of noise that are printed."""

@@ -8,13 +8,13 @@ from typing import NamedTuple
 
 from fieldscribe.arithmetic.codec import Settings
 from fieldscribe.conversation.decoder import StreamDecoder, frame_decoder
+from fieldscribe.diagnostics import UnclearError
 from fieldscribe.families import family
 from fieldscribe.families.decoded_frame import OpenRequests
 from fieldscribe.families.frame_results import FrameResult, Options
 from fieldscribe.listening.chunks import SILENT, Chunk, Cut, Packet
 from fieldscribe.listening.exchanges import Content, Exchange
 from fieldscribe.model import Device
-from fieldscribe.user_errors import UnclearError
 
 _ASKS, _ANSWERS = ("request", "request_or_reply"), ("reply", "exception")
 _MOST_OPEN = 1024

@@ -9,8 +9,8 @@ from collections.abc import Container, Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import BinaryIO
 
+from fieldscribe.diagnostics import UnclearError
 from fieldscribe.listening.chunks import BUS_SOCKET, BYTES, MESSAGE, SERIAL, STREAM, Chunk, Packet
-from fieldscribe.user_errors import UnclearError
 
 _CLASSIC = {
     b"\xd4\xc3\xb2\xa1": ("<", 1e6),

@@ -18,12 +18,13 @@ from fieldscribe_runtime import (
 )
 
 from fieldscribe.arithmetic.words import mask_of
+from fieldscribe.diagnostics import UnclearError
 from fieldscribe.live.lines import LineAddress, OpenLine, families_of, require_line
 from fieldscribe.live.readings import GOOD, Choice, Reader
 from fieldscribe.model import Device, Entry, Point
 from fieldscribe.targets.python.device import in_python
-from fieldscribe.targets.python.enums import reader
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, parameter, scope_of, word_attribute
+from fieldscribe.targets.python.views import reader
 from fieldscribe.targets.runtime_calls.calls import (
     attribute_of,
     call_of,
@@ -38,7 +39,6 @@ from fieldscribe.targets.runtime_calls.calls import (
 )
 from fieldscribe.targets.runtime_calls.scope import Call, Hex, Name, Node, PointName, Scope
 from fieldscribe.text import shortened, upper
-from fieldscribe.user_errors import UnclearError
 
 
 def evaluated(node: Node, names: Mapping[str, Any]) -> Any:

@@ -19,11 +19,11 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
+from fieldscribe.diagnostics import UnclearError, did_you_mean
 from fieldscribe.families import Family, families, family
 from fieldscribe.model import Device
 from fieldscribe.safe_files import read_regular
 from fieldscribe.text import shortened
-from fieldscribe.user_errors import UnclearError, did_you_mean
 
 _PARITIES = {"none": "N", "even": "E", "odd": "O"}
 SERIAL_KEYS = ("baud", "parity", "stop", "bits", "echo")

@@ -9,9 +9,9 @@ from fieldscribe.conditions import absent
 from fieldscribe.conversation.lookup import find
 from fieldscribe.conversation.meanings import Meanings
 from fieldscribe.conversation.selection import choose_point
+from fieldscribe.diagnostics import UnclearError
 from fieldscribe.model import Device, Point
 from fieldscribe.text import shortened
-from fieldscribe.user_errors import UnclearError
 
 _MOST_SILENT = 2
 """The most points without an answer before the first answer."""

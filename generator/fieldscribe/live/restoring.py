@@ -14,11 +14,11 @@ from typing import Any, NamedTuple
 
 from fieldscribe.arithmetic import codec
 from fieldscribe.conversation.refusals import written_remarks
+from fieldscribe.diagnostics import UnclearError
 from fieldscribe.live.snapshots import Snapshot, is_setting, settings_of
 from fieldscribe.model import Device, Point
 from fieldscribe.safe_files import read_regular
 from fieldscribe.text import line
-from fieldscribe.user_errors import UnclearError
 from fieldscribe.wording import label
 
 

@@ -11,12 +11,12 @@ from typing import Any, NamedTuple
 from fieldscribe_runtime import AnyDevice, CodecError, FieldscribeError
 
 from fieldscribe.arithmetic import codec
+from fieldscribe.diagnostics import UnclearError
 from fieldscribe.live.readings import NOT_THERE, PartialReads, in_words, may_be_read
 from fieldscribe.live.writing import reading_of
 from fieldscribe.model import Device, Point
 from fieldscribe.safe_files import read_regular
 from fieldscribe.text import shortened
-from fieldscribe.user_errors import UnclearError
 
 DEFAULTS = "defaults"
 """The source of the snapshot of defaults: the manual."""

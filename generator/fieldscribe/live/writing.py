@@ -13,12 +13,12 @@ from fieldscribe.arithmetic.codec import CodecError
 from fieldscribe.conversation.encoding import encode_point, require_writable
 from fieldscribe.conversation.meanings import Meanings
 from fieldscribe.conversation.selection import choose_point, points_by_name
+from fieldscribe.diagnostics import RefusedError, UnclearError
 from fieldscribe.families import family
 from fieldscribe.language.numbers import NumberError, parse_integer
 from fieldscribe.live.readings import Reading
 from fieldscribe.model import Device, Point
 from fieldscribe.text import line, shortened
-from fieldscribe.user_errors import RefusedError, UnclearError
 from fieldscribe.wording import condition_text, label, title_text
 
 

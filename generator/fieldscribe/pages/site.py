@@ -23,7 +23,7 @@ from fieldscribe.resources import Render, pages_dir
 from fieldscribe.targets.docs.html import source
 from fieldscribe.text import html_code, line
 from fieldscribe.wording import label, title_text
-from fieldscribe.wording.exact import hex_text
+from fieldscribe.wording.numbers import hex_text
 
 if TYPE_CHECKING:
     from markdown_it.token import Token

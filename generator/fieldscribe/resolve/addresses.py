@@ -21,7 +21,7 @@ from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.values import FactError, formula_finding, formula_value, whole
 from fieldscribe.resolve.word_contents import layout_of
 from fieldscribe.text import counted
-from fieldscribe.wording.exact import number_text
+from fieldscribe.wording.numbers import number_text
 
 WIRE = "wire"
 """The name of the wire address in formulas of `numbering`."""

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator, Mapping
 
-from fieldscribe.arithmetic.dates import DATE, DATE_AND_TIME, TIME, first_date
+from fieldscribe.arithmetic.texts import DATE, DATE_AND_TIME, TIME, first_date
 from fieldscribe.arithmetic.words import BCD, mask_of
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import DatePart, Text

@@ -16,7 +16,7 @@ from fieldscribe.resolve.scope import Scope, source_of, titles
 from fieldscribe.resolve.symbols import SymbolTable
 from fieldscribe.resolve.values import FactError, integer, number, whole
 from fieldscribe.text import humanised
-from fieldscribe.wording.exact import number_text
+from fieldscribe.wording.numbers import number_text
 
 RAW = ".raw"
 """The suffix of a point's name that marks a raw number instead of a value."""

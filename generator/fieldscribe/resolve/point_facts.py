@@ -21,7 +21,7 @@ from fieldscribe.model import Titles, Variant, item_of, type_info
 from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.values import NUMBERINGS, WORD_BITS, BitNumbers, integer, interval
 from fieldscribe.text import shortened
-from fieldscribe.wording.exact import number_text
+from fieldscribe.wording.numbers import number_text
 
 MOST_ELEMENTS = 4096
 """The most points of one row."""

@@ -16,7 +16,7 @@ from fieldscribe.model import Allowed, Bound, Enum, Interval, Limit, Linear
 from fieldscribe.resolve.bounds import Bounds, as_text, constant_range
 from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.values import FactError, formula_finding
-from fieldscribe.wording.exact import number_text
+from fieldscribe.wording.numbers import number_text
 
 _ONE_SIDED = tuple("<>\u2264\u2265")
 _DECIMAL_END = re.compile(r"(?:^|\.\.|[|,])\s*([-+]?[0-9]+\.[0-9]+)\s*(?=$|\.\.|[|,])")

@@ -18,7 +18,7 @@ from fieldscribe.resolve.scope import Scope, titles
 from fieldscribe.resolve.values import WORD_BITS, integer, number, pattern
 from fieldscribe.schema_types import TEXTS
 from fieldscribe.text import humanised
-from fieldscribe.wording.exact import number_text
+from fieldscribe.wording.numbers import number_text
 
 _MOST_WORDS = 500
 _LARGEST_DIGIT = 9

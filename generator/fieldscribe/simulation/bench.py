@@ -10,7 +10,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any, TypeVar
 
-from fieldscribe.diagnostics import Report, Span
+from fieldscribe.diagnostics import Report, Span, UnclearError, did_you_mean
 from fieldscribe.families import family
 from fieldscribe.language.load import load
 from fieldscribe.language.nodes import Map, Seq, read_source
@@ -23,7 +23,6 @@ from fieldscribe.simulation.behaviour_rules import Rules
 from fieldscribe.simulation.device import Clock, SimulatedDevice
 from fieldscribe.simulation.layout import Layout
 from fieldscribe.simulation.line import Fault, Line, Trace
-from fieldscribe.user_errors import UnclearError, did_you_mean
 
 LOCAL = Path("descriptions")
 Made = TypeVar("Made")

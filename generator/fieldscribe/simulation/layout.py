@@ -8,10 +8,10 @@ from typing import NamedTuple
 from fieldscribe.arithmetic.words import mask_of, reader_of, split
 from fieldscribe.conditions import absent
 from fieldscribe.conversation.selection import at_bases, choose_variants
+from fieldscribe.diagnostics import UnclearError
 from fieldscribe.families import family
 from fieldscribe.model import Base, Command, Device, Place, Point
 from fieldscribe.text import shortened
-from fieldscribe.user_errors import UnclearError
 
 Area = tuple[str, int]
 """A space or a telegram, and the index if one is sent with the address (else 0)."""

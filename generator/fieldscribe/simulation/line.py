@@ -21,9 +21,9 @@ from dataclasses import dataclass, field
 from random import Random
 from typing import NamedTuple, Protocol
 
+from fieldscribe.diagnostics import UnclearError
 from fieldscribe.simulation.device import Clock, SimulatedDevice
 from fieldscribe.simulation.memory import LOCK
-from fieldscribe.user_errors import UnclearError
 
 KINDS = {
     "silent": "no answer comes",

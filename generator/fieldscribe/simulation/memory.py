@@ -12,14 +12,13 @@ from typing import Protocol, TypeVar
 
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError, Settings, setting_of
-from fieldscribe.arithmetic.dates import first_date
-from fieldscribe.arithmetic.texts import pattern_of_text, text_of
+from fieldscribe.arithmetic.texts import first_date, pattern_of_text, text_of
 from fieldscribe.arithmetic.words import insert, joined, with_fixed, words_of
 from fieldscribe.conversation.encoding import read_value
 from fieldscribe.conversation.selection import choose_point
+from fieldscribe.diagnostics import UnclearError
 from fieldscribe.model import Point
 from fieldscribe.simulation.layout import Area, Cells, Layout
-from fieldscribe.user_errors import UnclearError
 
 _ELECTRIC = {"voltage": 230, "current": 5, "frequency": 50, "power": 1000, "energy": 1000}
 _USUAL = _ELECTRIC | {"temperature": 40, "ratio": 50, "rotational speed": 1500, "time": 10}

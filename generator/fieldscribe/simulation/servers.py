@@ -11,8 +11,8 @@ import os
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.diagnostics import UnclearError, can_package
 from fieldscribe.simulation.line import Line, Outcome, Stream
-from fieldscribe.user_errors import UnclearError, can_package
 
 if TYPE_CHECKING:
     import can

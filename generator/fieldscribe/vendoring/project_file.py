@@ -15,12 +15,11 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from fieldscribe.diagnostics import Report, Span
+from fieldscribe.diagnostics import Report, Span, did_you_mean
 from fieldscribe.language.keys.forms import ID
 from fieldscribe.pipeline import DEVICE_FILE
 from fieldscribe.safe_files import Inputs, read_regular, shown_path
 from fieldscribe.text import shortened
-from fieldscribe.user_errors import did_you_mean
 from fieldscribe.vendoring.requests import LANGUAGE_OF, LANGUAGES, CodeRequest
 
 NAME = "fieldscribe.toml"

@@ -19,6 +19,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from fieldscribe.code_view import for_code
+from fieldscribe.diagnostics import UnclearError
 from fieldscribe.model import Device
 from fieldscribe.pages.site import NAME, Shelf, site_files
 from fieldscribe.resources import render, templates_dir
@@ -26,7 +27,6 @@ from fieldscribe.targets import target
 from fieldscribe.targets.docs import csv_files, html_files, markdown_files, xlsx_files
 from fieldscribe.targets.docs.cells import scope_of
 from fieldscribe.targets.identifiers import LEFT_OUT
-from fieldscribe.user_errors import UnclearError
 from fieldscribe.vendoring.selection import select
 
 RUNTIME_NAME = re.compile(r"fieldscribe_[a-z0-9_]*\*?|FIELDSCRIBE_[A-Z0-9_]*\*?")

@@ -7,12 +7,12 @@ from fnmatch import fnmatchcase
 
 from fieldscribe.code_view import for_code
 from fieldscribe.conversation.lookup import find, near
+from fieldscribe.diagnostics import UnclearError, did_you_mean
 from fieldscribe.facts.digest import with_digest
 from fieldscribe.families import family
 from fieldscribe.grouping import grouped
 from fieldscribe.model import Block, Command, Device, Enum, Erratum, Interval, Point, SteppedCommand
 from fieldscribe.text import shortened
-from fieldscribe.user_errors import UnclearError, did_you_mean
 
 _GLOB = frozenset("*?[")
 _MOST_NAMED = 20

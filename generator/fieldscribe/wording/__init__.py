@@ -11,8 +11,8 @@ from typing import Any
 from fieldscribe.arithmetic.exact import SAME
 from fieldscribe.model import Base, Device, Entry, Erratum, Flag, Point, ScaleCase, Special, Text, Titles
 from fieldscribe.text import counted, line
-from fieldscribe.wording.dates import parts_text as parts_text
-from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text, rounded
+from fieldscribe.wording.numbers import exact, fixed_rule, hex_text, number_text, rounded
+from fieldscribe.wording.numbers import parts_text as parts_text
 from fieldscribe.wording.rules import Points, RenamedPoints, converted, inverse_text, name_of, ranges_text
 from fieldscribe.wording.rules import clause_text as clause_text
 from fieldscribe.wording.rules import condition_text as condition_text

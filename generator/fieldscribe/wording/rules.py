@@ -7,7 +7,7 @@ from fieldscribe.arithmetic.exact import Line, value_line
 from fieldscribe.conditions import Clause, Comparison, Condition
 from fieldscribe.model import Bound, Factor, Interval, Limit, Linear, Point, Step, SteppedCommand, Word
 from fieldscribe.model.device import WHOLE_WORD
-from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text, plus_text, times_text, value_multiple
+from fieldscribe.wording.numbers import exact, fixed_rule, hex_text, number_text, plus_text, times_text, value_multiple
 
 Points = Mapping[str, Point]
 """Points by name, from which texts of rules take units and names."""

@@ -19,7 +19,7 @@ from fieldscribe.families.can.signals import selectors
 from fieldscribe.grouping import grouped
 from fieldscribe.model import Device, Field, Flag, Message, Point
 from fieldscribe.text import line
-from fieldscribe.wording.exact import fixed_rule, hex_text
+from fieldscribe.wording.numbers import fixed_rule, hex_text
 
 _EXTENDED = 1 << 31
 """The bit that marks an extended identifier (29 bits)."""

@@ -3,15 +3,15 @@
 from fieldscribe import wording
 from fieldscribe.arithmetic.codec import Settings
 from fieldscribe.arithmetic.words import group_mask, insert, with_fixed, words_of
+from fieldscribe.diagnostics import RefusedError, UnclearError
 from fieldscribe.families.can import signals
 from fieldscribe.families.can.frames import CanFrame, build, carriers, carries, identifier, request_and_answer
 from fieldscribe.families.frame_results import BuiltFrames, Options, WriteMethod, refused
 from fieldscribe.model import Device, Message, Point
 from fieldscribe.pasted_numbers import number_of
 from fieldscribe.text import shortened
-from fieldscribe.user_errors import RefusedError, UnclearError
 from fieldscribe.wording import fixed_text, label
-from fieldscribe.wording.exact import hex_text
+from fieldscribe.wording.numbers import hex_text
 
 
 def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> BuiltFrames:

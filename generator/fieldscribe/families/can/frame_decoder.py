@@ -25,8 +25,7 @@ from fieldscribe.families.frame_results import FrameResult, Options
 from fieldscribe.model import Bus, Device, Message, Telegram
 from fieldscribe.text import line
 from fieldscribe.wording import address_text
-from fieldscribe.wording.exact import hex_text
-from fieldscribe.wording.frames import check_text, hex_words, strange_unit
+from fieldscribe.wording.numbers import check_text, hex_text, hex_words, strange_unit
 
 _DAMAGED = "its words are not read, for the frame is damaged"
 _MOST_HEADS = 1024

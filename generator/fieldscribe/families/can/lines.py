@@ -6,6 +6,7 @@ import time
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.diagnostics import UnclearError, can_package
 from fieldscribe.families.can.frames import LONGEST, CanFrame
 from fieldscribe.families.can.notation import read_frames
 from fieldscribe.families.frame_results import FrameResult
@@ -13,7 +14,6 @@ from fieldscribe.listening.chunks import BUS_SOCKET, MESSAGE, SILENCE, SILENT, C
 from fieldscribe.live.lines import LineAddress, OpenLine
 from fieldscribe.model import Device
 from fieldscribe.pasted_numbers import HexError
-from fieldscribe.user_errors import UnclearError, can_package
 
 if TYPE_CHECKING:
     import can

@@ -3,10 +3,10 @@
 import re
 from collections.abc import Iterable, Iterator, Sequence
 
+from fieldscribe.diagnostics import UnclearError
 from fieldscribe.families.can.frames import CanFrame
 from fieldscribe.pasted_numbers import HexError, parse_hex, rejoined
 from fieldscribe.text import shortened
-from fieldscribe.user_errors import UnclearError
 
 HINT = "write identifier and data in hexadecimal, as in 321#DD00051513880064, or give the identifier with --can-id 321"
 MOST_IDENTIFIER = 0x1FFFFFFF

@@ -7,8 +7,7 @@ from fieldscribe.checks import frames_agree
 from fieldscribe.checks.coexistence import report_missing
 from fieldscribe.checks.frames_agree import Seen
 from fieldscribe.families.modbus import BIT_LISTS, FUNCTIONS, READS, SPACES, profile_of
-from fieldscribe.families.modbus.exchange import Request, build, parse_reply, parse_request
-from fieldscribe.families.modbus.frames import Flaw, data_size, unwrap
+from fieldscribe.families.modbus.frames import Flaw, Request, build, data_size, parse_reply, parse_request, unwrap
 from fieldscribe.families.modbus.remarks import flaw_text
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Frame, Named, Point

@@ -5,15 +5,14 @@ from collections.abc import Iterator, Mapping
 from fieldscribe.arithmetic import words
 from fieldscribe.arithmetic.codec import Settings
 from fieldscribe.arithmetic.words import exchanged, group_mask
+from fieldscribe.diagnostics import RefusedError
 from fieldscribe.families.frame_results import BuiltFrames, Options, WriteMethod, refused
 from fieldscribe.families.modbus import FAMILY, SPACES, framings_of, profile_of
-from fieldscribe.families.modbus.exchange import Request, build
+from fieldscribe.families.modbus.frames import Request, build
 from fieldscribe.model import Device, Point, Step
 from fieldscribe.text import counted
-from fieldscribe.user_errors import RefusedError
 from fieldscribe.wording import label
-from fieldscribe.wording.exact import hex_text
-from fieldscribe.wording.frames import spaced, units_text
+from fieldscribe.wording.numbers import hex_text, spaced, units_text
 
 
 def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> BuiltFrames:

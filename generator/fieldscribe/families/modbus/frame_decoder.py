@@ -7,13 +7,17 @@ from functools import lru_cache
 from fieldscribe.families.decoded_frame import AddressSpan, DecodedFrame, OpenRequests, cut_apart
 from fieldscribe.families.frame_results import FrameResult, Item, Options
 from fieldscribe.families.modbus import FRAMINGS, FUNCTIONS, READS, SINGLE, framings_of, remarks
-from fieldscribe.families.modbus.exchange import Reply, Request, confirmed_write, reply_in, request_in
 from fieldscribe.families.modbus.frames import (
     LEAST,
     Flaw,
+    Reply,
+    Request,
     Unwrapped,
+    confirmed_write,
     data_size,
+    reply_in,
     reply_length,
+    request_in,
     request_length,
     unwrap,
     values_in,
@@ -22,7 +26,7 @@ from fieldscribe.families.modbus.frames import (
 from fieldscribe.model import Device
 from fieldscribe.pasted_numbers import rejoined, typed_bytes
 from fieldscribe.text import counted
-from fieldscribe.wording.frames import hex_words, no_answer_text, spaced
+from fieldscribe.wording.numbers import hex_words, no_answer_text, spaced
 
 _MOST_FRAMES = 1024
 """The number of decoded frames that are kept."""

@@ -9,13 +9,13 @@ from collections import OrderedDict
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.diagnostics import UnclearError
 from fieldscribe.families.frame_results import FrameResult
 from fieldscribe.families.modbus import FUNCTIONS, SPACES
 from fieldscribe.families.modbus.frames import reply_length, request_length, unwrap
 from fieldscribe.listening.chunks import BYTES, STREAM, ByteCutter, Chunk, Cut, logged_bytes, packet, serial_chunks
 from fieldscribe.live.lines import SERIAL_KEYS, LineAddress, OpenLine
 from fieldscribe.model import Device
-from fieldscribe.user_errors import UnclearError
 
 if TYPE_CHECKING:
     from fieldscribe_runtime.modbus import ModbusDevice

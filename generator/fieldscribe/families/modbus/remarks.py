@@ -4,12 +4,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 
 from fieldscribe.families.modbus import BROADCAST, FAMILY, FUNCTIONS, READS, profile_of
-from fieldscribe.families.modbus.exchange import Request
-from fieldscribe.families.modbus.frames import Flaw, Unwrapped
+from fieldscribe.families.modbus.frames import Flaw, Request, Unwrapped
 from fieldscribe.model import Device
 from fieldscribe.text import counted, line
-from fieldscribe.wording.exact import hex_text
-from fieldscribe.wording.frames import check_text, numbered, spaced, span_text, strange_unit, too_short
+from fieldscribe.wording.numbers import check_text, hex_text, numbered, spaced, span_text, strange_unit, too_short
 
 EXCEPTIONS: Mapping[int, str] = {
     0x01: "illegal function",

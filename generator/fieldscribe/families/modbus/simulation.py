@@ -5,8 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from fieldscribe.families.modbus import FUNCTIONS, READS, SPACES, Profile, profile_of
-from fieldscribe.families.modbus.exchange import Request, request_in
-from fieldscribe.families.modbus.frames import LEAST, Flaw, Unwrapped, crc16, frame, pack_bits, request_length
+from fieldscribe.families.modbus.frames import (
+    LEAST,
+    Flaw,
+    Request,
+    Unwrapped,
+    crc16,
+    frame,
+    pack_bits,
+    request_in,
+    request_length,
+)
 from fieldscribe.model import Bus, Source
 from fieldscribe.simulation.device import Refusal, SimulatedDevice, by_unit
 from fieldscribe.simulation.line import Answer, Core, cut_sound

@@ -14,7 +14,7 @@ from fieldscribe.families.uss.telegrams import (
     write_task,
 )
 from fieldscribe.model import Bus, Point
-from fieldscribe.wording.exact import hex_text
+from fieldscribe.wording.numbers import hex_text
 
 LIMITS = family_facts(
     UssBus,

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from fieldscribe.arithmetic.codec import Settings
 from fieldscribe.arithmetic.words import with_fixed, words_in, words_of
+from fieldscribe.diagnostics import RefusedError, UnclearError
 from fieldscribe.families.frame_results import BuiltFrames, Options, WriteMethod, refused
 from fieldscribe.families.uss.remarks import code_text, titled_code, words_printed
 from fieldscribe.families.uss.telegrams import (
@@ -18,9 +19,8 @@ from fieldscribe.families.uss.telegrams import (
 )
 from fieldscribe.model import Device, Point
 from fieldscribe.text import line
-from fieldscribe.user_errors import RefusedError, UnclearError
 from fieldscribe.wording import fixed_text, label
-from fieldscribe.wording.frames import spaced
+from fieldscribe.wording.numbers import spaced
 
 
 def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> BuiltFrames:

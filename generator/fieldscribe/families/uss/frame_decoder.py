@@ -9,7 +9,7 @@ from fieldscribe.families.uss import of_bus, remarks, telegrams
 from fieldscribe.families.uss.telegrams import Request, Unwrapped, answer_in, bare_words, frames_in, request_in, unwrap
 from fieldscribe.model import Device
 from fieldscribe.pasted_numbers import rejoined, typed_bytes
-from fieldscribe.wording.frames import element_text, no_answer_text
+from fieldscribe.wording.numbers import element_text, no_answer_text
 
 _ANSWERS = ("ok", "refused", "no_rights", "no_answer")
 

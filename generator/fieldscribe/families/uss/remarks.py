@@ -15,7 +15,7 @@ from fieldscribe.families.uss.telegrams import (
 )
 from fieldscribe.model import Code, Device
 from fieldscribe.text import counted, line
-from fieldscribe.wording.frames import check_text, numbered, strange_unit, too_short
+from fieldscribe.wording.numbers import check_text, numbered, strange_unit, too_short
 
 NO_REQUEST = "read as a request, for there was none before it; --direction response reads it as a response"
 PARTS = "the words of the parameter part alone are read with --framing pkw, process data with --framing pzd"

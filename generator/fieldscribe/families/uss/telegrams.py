@@ -10,11 +10,11 @@ from functools import lru_cache, reduce
 from operator import xor
 
 from fieldscribe.arithmetic.words import words_in
+from fieldscribe.diagnostics import UnclearError
 from fieldscribe.families.decoded_frame import cut_apart
 from fieldscribe.families.frame_results import Options
 from fieldscribe.families.uss import FAMILY, of_bus
 from fieldscribe.model import Bus, Device
-from fieldscribe.user_errors import UnclearError
 
 START = 0x02
 LAST_PARAMETER = FAMILY.last_address

@@ -27,7 +27,7 @@ from fieldscribe.importing.draft_text import (
     snake,
 )
 from fieldscribe.importing.sunspec.models import Group, Model, Point
-from fieldscribe.wording.exact import number_text
+from fieldscribe.wording.numbers import number_text
 
 _TYPES = {
     **{f"int{bits}": f"s{bits}" for bits in (16, 32, 64)},

@@ -42,7 +42,7 @@ from fieldscribe.importing.wb.templates import (
 )
 from fieldscribe.safe_files import read_regular
 from fieldscribe.text import line
-from fieldscribe.wording.exact import number_text
+from fieldscribe.wording.numbers import number_text
 
 _LEAST = 3
 """The least number of rows for a group with a rule of addresses."""

@@ -14,7 +14,7 @@ from fieldscribe.grouping import grouped
 from fieldscribe.importing.draft_text import DraftBlock, Names, scalar, snake, titles_text
 from fieldscribe.importing.wb.rows import Row
 from fieldscribe.importing.wb.templates import Texts
-from fieldscribe.wording.exact import number_text
+from fieldscribe.wording.numbers import number_text
 
 Condition: TypeAlias = str | bool
 """A condition as a description writes it; or True or False if it is constant."""

@@ -11,7 +11,7 @@ from fieldscribe.importing.cells import unit_in
 from fieldscribe.importing.draft_text import DraftPoint, scalar, titles_text
 from fieldscribe.importing.wb.templates import Labels, Texts, number_of, objects
 from fieldscribe.text import line
-from fieldscribe.wording.exact import number_text
+from fieldscribe.wording.numbers import number_text
 
 _SPACES = {"holding": "holding", "holding_single": "holding", "holding_multi": "holding", "input": "input",
            "press_counter": "input", "coil": "coil", "discrete": "discrete"}  # fmt: skip

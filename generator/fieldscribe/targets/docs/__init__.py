@@ -53,7 +53,7 @@ def csv_files(scope: DocsScope) -> Iterable[tuple[str, str]]:
 
 def xlsx_files(scope: DocsScope) -> Iterable[tuple[str, bytes]]:
     """Yield all tables as one workbook. Raises ModuleNotFoundError without XlsxWriter."""
-    from fieldscribe.targets.docs.workbook import workbook_of
+    from fieldscribe.targets.docs.tables import workbook_of
 
     yield f"{scope.device.id}.xlsx", workbook_of(scope.device, tables_of(scope))
 

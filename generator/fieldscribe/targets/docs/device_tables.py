@@ -32,8 +32,7 @@ from fieldscribe.targets.docs.cells import Columns, DocsScope, Form, place_text
 from fieldscribe.targets.docs.tables import items_of
 from fieldscribe.text import counted
 from fieldscribe.wording import address_text, title_text
-from fieldscribe.wording.exact import hex_text
-from fieldscribe.wording.frames import spaced
+from fieldscribe.wording.numbers import hex_text, spaced
 from fieldscribe.wording.rules import run_text, steps_texts
 
 

@@ -33,7 +33,7 @@ from fieldscribe.targets.typescript import scripts
 from fieldscribe.targets.typescript.identifiers import Identifiers as TypeScriptIdentifiers
 from fieldscribe.targets.vectors import text_of
 from fieldscribe.text import html_code, line
-from fieldscribe.wording.frames import misprint_text, spaced
+from fieldscribe.wording.numbers import misprint_text, spaced
 
 _RUNTIME = "typescript/runtime"
 _RUNNER = "fieldscribe-conformance/vectors"

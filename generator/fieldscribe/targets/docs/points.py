@@ -32,7 +32,7 @@ from fieldscribe.targets.docs.cells import (
     target,
 )
 from fieldscribe.targets.docs.words import WordView, word_views
-from fieldscribe.wording.exact import fixed_rule
+from fieldscribe.wording.numbers import fixed_rule
 from fieldscribe.wording.rules import RenamedPoints
 
 _ALWAYS = ("Type", "R/W", "Range", "Unit", "Raw range", "Scale", "Remarks", "Source")

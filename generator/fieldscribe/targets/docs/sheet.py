@@ -17,7 +17,7 @@ from fieldscribe.families import family
 from fieldscribe.model import Command, Point
 from fieldscribe.targets.docs.cells import DocsScope, Remarks
 from fieldscribe.targets.docs.tables import Column, Encode, Table, codes_of, decimal, original, source_cells
-from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text
+from fieldscribe.wording.numbers import exact, fixed_rule, hex_text, number_text
 
 _FACTS = {fact.key: fact for fact in POINT if fact.column}
 _KEEPS = {None: "", "no": "no", "yes": "yes", "choice": "by the task"}

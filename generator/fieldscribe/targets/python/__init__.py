@@ -65,8 +65,7 @@ WEIGHT = 0.4
 def outputs(device: Device, render: Render, *, tests: bool = True) -> Iterable[tuple[str, str]]:
     """Yield the files of the device's package, as paths below the output folder and their text."""
     from fieldscribe.targets.python.device import device_context, uses
-    from fieldscribe.targets.python.enums import enums_context
-    from fieldscribe.targets.python.points_module import points_context
+    from fieldscribe.targets.python.views import enums_context, points_context
 
     del tests  # they are not generated
     names = Identifiers(device)

@@ -46,8 +46,7 @@ _last: DeviceCache[Views] = DeviceCache(eq)
 
 
 def _views(device: Device) -> Views:
-    from fieldscribe.targets.typescript.enums import enums_context
-    from fieldscribe.targets.typescript.points import device_context, points_context
+    from fieldscribe.targets.typescript.views import device_context, enums_context, points_context
 
     names = Identifiers(device)
     head = {
@@ -61,7 +60,7 @@ def _views(device: Device) -> Views:
 
 def _typed(views: Views, device: Device, names: Identifiers) -> Views:
     """Return the contexts of the types; that of points is larger than the context of their code."""
-    from fieldscribe.targets.typescript.points import types_context
+    from fieldscribe.targets.typescript.views import types_context
 
     return {**views, "points": {**views["points"], "view": types_context(device, names)}}
 

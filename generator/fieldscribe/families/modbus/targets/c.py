@@ -7,8 +7,7 @@ from functools import partial
 from itertools import chain
 
 from fieldscribe.families.modbus import BIT_LISTS, FUNCTIONS, SPACES, Profile, profile_of
-from fieldscribe.families.modbus.targets.c_selections import Selections
-from fieldscribe.families.modbus.targets.identification import IdentifyView, can_identify, names_of_call
+from fieldscribe.families.modbus.targets.c_rows import IdentifyView, Selections, can_identify, names_of_call
 from fieldscribe.model import Base, Block, Command, Device, Found, Point, SteppedCommand
 from fieldscribe.targets.c import frames
 from fieldscribe.targets.c.calls import Transfer

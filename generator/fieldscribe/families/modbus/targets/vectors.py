@@ -8,7 +8,7 @@ import itertools
 from collections.abc import Iterator, Mapping
 
 from fieldscribe.families.modbus import FRAMINGS, SPACES, profile_of
-from fieldscribe.families.modbus.exchange import Request
+from fieldscribe.families.modbus.frames import Request
 from fieldscribe.families.modbus.targets.wire import ModbusWire
 from fieldscribe.model import Base, Bus, Device, Found, Point, SteppedCommand, Word
 from fieldscribe.targets.vectors.exchanges import Script, words_in_bytes

@@ -4,8 +4,17 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from fieldscribe.families.modbus import BIT_LISTS, FUNCTIONS, READS, SPACES, profile_of
-from fieldscribe.families.modbus.exchange import Request, build, parse_reply, parse_request
-from fieldscribe.families.modbus.frames import Flaw, crc16, data_size, frame, pack_bits
+from fieldscribe.families.modbus.frames import (
+    Flaw,
+    Request,
+    build,
+    crc16,
+    data_size,
+    frame,
+    pack_bits,
+    parse_reply,
+    parse_request,
+)
 from fieldscribe.model import Bus, Device, Frame, Point
 from fieldscribe.targets.vectors.exchanges import (
     Example,
