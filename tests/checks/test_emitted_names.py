@@ -15,7 +15,7 @@ from fieldscribe.model import Device
 from fieldscribe.pipeline import outputs
 from fieldscribe.resources import render, templates_dir
 from fieldscribe.targets import c, target
-from fieldscribe.targets.rust.identifiers import CONSTANTS
+from fieldscribe.targets.rust import CONSTANTS
 from support.described import DEVICES, compile_in, described, group, head, loaded, loaded_in, together
 
 LANGUAGES = ("c", "python", "rust", "typescript")

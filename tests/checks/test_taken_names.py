@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from fieldscribe.pipeline import outputs
 from fieldscribe.targets import target
-from fieldscribe.targets.python.identifiers import HELPERS, Identifiers, attribute, parameter, word_attribute
+from fieldscribe.targets.python.syntax import HELPERS, Identifiers, attribute, parameter, word_attribute
 from fieldscribe.targets.rust.enums import getter_name
 from fieldscribe.targets.rust.literals import type_name, value_name, variant_name
 from support.described import compile_in, described, loaded_in, made

@@ -2,7 +2,7 @@
 
 Nor do two identifiers differ only after the characters that a language compares.
 
-Each target lists its identifiers with their owners (`targets/*/identifiers.py`); here they are only compared. Points
+Each target lists its identifiers with their owners (`identifiers` of `targets/*`); here they are only compared. Points
 that have other findings are left out. Reserved words do not clash: targets change such names themselves.
 
 Mostly a quick proof does without all the names. Points of one kind have the same identifiers except for the point's

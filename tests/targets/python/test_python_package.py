@@ -16,7 +16,7 @@ from fieldscribe.model import Place
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import python as target
 from fieldscribe.targets.python import LIBRARIES
-from fieldscribe.targets.python.identifiers import DEVICE_MEMBERS, HELPERS, WORD_MEMBERS
+from fieldscribe.targets.python.syntax import DEVICE_MEMBERS, HELPERS, WORD_MEMBERS
 from support.models import STATUS_FLAGS, changed, doubts, plain_points, point, sample_device, titles
 from support.python_families import CanUnit, UssDrive
 from support.python_package import Awaited, Slave, assert_formatted, error, imported, typed_findings, write_package

@@ -17,7 +17,6 @@ from fieldscribe.model import Device, Flag
 from fieldscribe.resources import render, templates_dir
 from fieldscribe.targets import rust
 from fieldscribe.targets.identifiers import clashes as found_clashes
-from fieldscribe.targets.rust.identifiers import identifiers
 from fieldscribe.targets.rust.layout import PointDoc, left_out
 from fieldscribe.targets.rust.literals import type_name
 from fieldscribe.targets.rust.scope import CratePoint, in_rust, scope_of
@@ -61,7 +60,7 @@ def conforms(built: Path, device: str) -> subprocess.CompletedProcess[str]:
 
 
 def clashes(device: Device) -> list[str]:
-    return [one.name for one in found_clashes(identifiers(device))]
+    return [one.name for one in found_clashes(rust.identifiers(device))]
 
 
 def test_clashing_names_are_found() -> None:

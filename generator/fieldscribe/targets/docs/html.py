@@ -28,9 +28,9 @@ from fieldscribe.targets.docs.device_tables import bus_view, identifier_text, ro
 from fieldscribe.targets.docs.html_points import Points
 from fieldscribe.targets.docs.tables import items_of
 from fieldscribe.targets.identifiers import head_lines
-from fieldscribe.targets.python.identifiers import Identifiers
+from fieldscribe.targets.python.syntax import Identifiers
 from fieldscribe.targets.typescript import scripts
-from fieldscribe.targets.typescript.identifiers import Identifiers as TypeScriptIdentifiers
+from fieldscribe.targets.typescript.syntax import Identifiers as TypeScriptIdentifiers
 from fieldscribe.targets.vectors import text_of
 from fieldscribe.text import html_code, line
 from fieldscribe.wording.numbers import misprint_text, spaced

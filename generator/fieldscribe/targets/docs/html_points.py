@@ -12,9 +12,9 @@ from fieldscribe.families import family
 from fieldscribe.model import Device, Entry, Enum, Flag, Point, Source, Special, Titles
 from fieldscribe.model.point import bits_of
 from fieldscribe.targets.docs.cells import DocsScope, reference_heads
-from fieldscribe.targets.python.identifiers import attribute
+from fieldscribe.targets.python.syntax import attribute
 from fieldscribe.targets.rust.literals import type_name
-from fieldscribe.targets.typescript.identifiers import attribute as constant
+from fieldscribe.targets.typescript.syntax import attribute as constant
 from fieldscribe.text import line
 
 FIELDS = (

@@ -9,8 +9,7 @@ from fieldscribe.model import Device, Flag
 from fieldscribe.resources import Render, runtime_files
 from fieldscribe.targets.identifiers import Names, Owner, head_lines
 from fieldscribe.targets.python.device import imports_of, in_python
-from fieldscribe.targets.python.identifiers import Identifiers, attribute, parameter, word_attribute
-from fieldscribe.targets.python.layout import comment, wrapped
+from fieldscribe.targets.python.syntax import Identifiers, attribute, comment, parameter, word_attribute, wrapped
 from fieldscribe.targets.runtime_calls.scope import shared_identifiers
 from fieldscribe.text import pascal, python_doc, python_string, toml_string, upper
 from fieldscribe.wording import open_texts

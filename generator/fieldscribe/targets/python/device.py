@@ -6,8 +6,7 @@ from typing import NamedTuple
 
 from fieldscribe.families import family
 from fieldscribe.model import Device, Point
-from fieldscribe.targets.python.identifiers import Identifiers, attribute, parameter, sorted_imports
-from fieldscribe.targets.python.layout import imported
+from fieldscribe.targets.python.syntax import Identifiers, attribute, imported, parameter, sorted_imports
 from fieldscribe.text import pascal, python_doc, python_string
 
 RUNTIME = "fieldscribe_runtime"

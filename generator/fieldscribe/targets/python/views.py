@@ -14,8 +14,21 @@ from fieldscribe.model import Command, Device, Entry, Flag, Point, SteppedComman
 from fieldscribe.resources import Render
 from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplates, placeholders
 from fieldscribe.targets.python.device import RUNTIME, PythonFamily, in_python
-from fieldscribe.targets.python.identifiers import Identifiers, attribute, scope_of, sorted_imports, word_attribute
-from fieldscribe.targets.python.layout import DOC, WIDTH, arguments, comment, docstring, laid_out, leaf, wrapped
+from fieldscribe.targets.python.syntax import (
+    DOC,
+    WIDTH,
+    Identifiers,
+    arguments,
+    attribute,
+    comment,
+    docstring,
+    laid_out,
+    leaf,
+    scope_of,
+    sorted_imports,
+    word_attribute,
+    wrapped,
+)
 from fieldscribe.targets.runtime_calls.calls import (
     attribute_of,
     call_of,

@@ -9,7 +9,7 @@ from fieldscribe.code_view import DeviceCache
 from fieldscribe.model import Device
 from fieldscribe.resources import Render, runtime_files
 from fieldscribe.targets.identifiers import head_lines
-from fieldscribe.targets.typescript.identifiers import Identifiers, device_name_taken, identifiers
+from fieldscribe.targets.typescript.syntax import Identifiers, device_name_taken, identifiers
 from fieldscribe.text import js_comment, line
 from fieldscribe.wording import open_texts
 

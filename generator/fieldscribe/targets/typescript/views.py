@@ -26,16 +26,18 @@ from fieldscribe.targets.runtime_calls.calls import (
     texts_of,
 )
 from fieldscribe.targets.runtime_calls.scope import Call, Hex, Name, Node, Scope, call, family_calls
-from fieldscribe.targets.typescript.identifiers import (
+from fieldscribe.targets.typescript.syntax import (
     Identifiers,
+    Layout,
     attribute,
     code_attribute,
+    doc_lines,
     in_typescript,
+    lazily,
     option,
     scope_of,
     word_attribute,
 )
-from fieldscribe.targets.typescript.layout import Layout, doc_lines, lazily
 from fieldscribe.text import camel, humanised, js_comment, js_string, upper
 from fieldscribe.wording import open_text
 

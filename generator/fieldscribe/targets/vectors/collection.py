@@ -12,11 +12,10 @@ from fieldscribe.targets.vectors.decimals import digits, displayed
 from fieldscribe.targets.vectors.exchanges import Exchanges, Wire
 from fieldscribe.targets.vectors.floats import floats
 from fieldscribe.targets.vectors.lines import Lines
-from fieldscribe.targets.vectors.numbers import Memory, numbers
+from fieldscribe.targets.vectors.numbers import Memory, bits, fixed, flags, names, numbers, specials, words
 from fieldscribe.targets.vectors.oracle import Oracle, outer_bounds
 from fieldscribe.targets.vectors.samples import PointEncoding, PointEncodings
 from fieldscribe.targets.vectors.texts import text
-from fieldscribe.targets.vectors.words import bits, fixed, flags, names, specials, words
 from fieldscribe.text import line
 
 

@@ -11,10 +11,10 @@ from fieldscribe.arithmetic.words import joined
 from fieldscribe.model import Code, Device, Frame, Point
 from fieldscribe.targets.vectors import samples
 from fieldscribe.targets.vectors.lines import Lines, script_text
+from fieldscribe.targets.vectors.numbers import words_of
 from fieldscribe.targets.vectors.oracle import Oracle, admit, as_raw, bits_of, code_of, outer_bounds
 from fieldscribe.targets.vectors.samples import PointEncoding, PointEncodings, ascending
 from fieldscribe.targets.vectors.texts import letters, typical_date, words_of_text
-from fieldscribe.targets.vectors.words import words_of
 
 Script = list[tuple[bytes, bytes]]
 """The requests of an exchange with their answers."""

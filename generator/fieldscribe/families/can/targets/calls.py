@@ -7,7 +7,7 @@ from fieldscribe.families.can import identifier_bits
 from fieldscribe.model import Device, Field, Message, Role
 from fieldscribe.targets.python.device import RUNTIME, Line, PythonFamily
 from fieldscribe.targets.runtime_calls.scope import FamilyCalls, Hex, Node, Scope, call, telegrams
-from fieldscribe.targets.typescript.identifiers import TypeScriptFamily
+from fieldscribe.targets.typescript.syntax import TypeScriptFamily
 
 
 def _profile(device: Device, scope: Scope) -> Node:

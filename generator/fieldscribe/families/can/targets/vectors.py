@@ -20,8 +20,8 @@ from fieldscribe.families.can.frames import (
 from fieldscribe.model import Bus, Device, Message, Point, Telegram
 from fieldscribe.targets.vectors.exchanges import Script, Wire, single_bit_errors, with_flipped, words_in_bytes
 from fieldscribe.targets.vectors.lines import Lines
+from fieldscribe.targets.vectors.numbers import bytes_exchanged
 from fieldscribe.targets.vectors.oracle import as_raw
-from fieldscribe.targets.vectors.words import bytes_exchanged
 
 KINDS = {
     "can_build": "status:word id:int? bytes:bytes? frame:note?",

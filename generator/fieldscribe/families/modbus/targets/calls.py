@@ -9,7 +9,7 @@ from fieldscribe.families.modbus import BROADCAST, FRAMINGS, SPACES, profile_of
 from fieldscribe.model import Base, Block, Device
 from fieldscribe.targets.python.device import RUNTIME, Line, PythonFamily
 from fieldscribe.targets.runtime_calls.scope import FamilyCalls, Hex, Node, Scope, call
-from fieldscribe.targets.typescript.identifiers import TypeScriptFamily
+from fieldscribe.targets.typescript.syntax import TypeScriptFamily
 
 
 def _profile(device: Device, scope: Scope) -> Node:
