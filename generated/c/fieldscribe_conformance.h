@@ -515,12 +515,13 @@ FIELDSCRIBE_ONCE bool fieldscribe_fits_uint64_t(const char *field)
 
 #define FIELDSCRIBE_ENCODE_COUNT(function, count_type, raw_type, with)                           \
     if (fieldscribe_asks(v, "encode_count")) {                                                   \
-        raw_type raw = (raw_type)1;                                                              \
+        const raw_type before = (raw_type)((fieldscribe_bits(v, "count") & 1U) == 0U);           \
+        raw_type raw = before;                                                                   \
         int status = 1; /* out of range */                                                       \
         if (fieldscribe_fits_##count_type(fieldscribe_field(v, "count"))) {                      \
             status = (int)function((count_type)fieldscribe_bits(v, "count") with, &raw);         \
         }                                                                                        \
-        fieldscribe_stored(v, status, "raw", (uint64_t)raw, raw == (raw_type)1);                 \
+        fieldscribe_stored(v, status, "raw", (uint64_t)raw, raw == before);                      \
     }
 
 #define FIELDSCRIBE_DECODE_COUNT(function, count_type, raw_type, with)                           \
