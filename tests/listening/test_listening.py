@@ -138,6 +138,7 @@ def test_a_network_with_several_requests_at_once(listen: Listen) -> None:
         f"10.0.0.1:4000  {READ}",
         f"10.0.0.1:4001  {UNANSWERED}",
     ]
+    assert listen("hitachi_l200", classic(packets), "--port", "502", "--port", "5020")[1:] == (lines, "")
 
 
 def test_devices_by_unit(listen: Listen) -> None:
@@ -208,6 +209,13 @@ def test_telegrams(listen: Listen) -> None:
         ("hitachi_l200=x", "", (), "a unit is a number"),
         ("hitachi_l200", logged([ASKED]), ("--for", "5"), "--for would have no effect on a capture"),
         ("hitachi_l200", logged([ASKED]), ("--port", "70000"), "`70000` is no TCP port: they are 1 to 65535"),
+        ("hitachi_l200", logged([ASKED]), ("--port", "5020"), "nothing here goes to or from port 5020"),
+        (
+            "woodward_mpu2s",
+            classic([bytes(16)], link=227),
+            ("--port", "5020"),
+            "nothing here goes to or from port 5020",
+        ),
         ("hitachi_l200", classic([bytes(16)], link=227), (), "1 frame of another kind of bus"),
     ],
 )

@@ -7,11 +7,10 @@ import json
 import sys
 from argparse import ArgumentParser, Namespace
 from codecs import BOM_UTF8
-from collections.abc import Iterable, Iterator
-from functools import cache
+from collections.abc import Callable, Iterable, Iterator
 from io import BufferedIOBase
 from itertools import groupby
-from typing import cast
+from typing import TypeVar, cast
 
 from fieldscribe.cli.common import StopError, add_device, add_format, add_repeated, open_device, usage_error
 from fieldscribe.cli.frame_options import add_family_options, add_framing, add_with, options_of, placed, settings_of
@@ -52,6 +51,7 @@ _MOST_MESSAGES = 10
 """The most lines without a frame that get a message each."""
 _LONGEST_LINE = 1 << 16
 """The most bytes of a line that are read; a longer line ends in dots and so is not a frame."""
+T = TypeVar("T")
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -135,7 +135,6 @@ class _Output:
                 self._unread += 1
                 if self._unread <= _MOST_MESSAGES:
                     usage_error(f"{name}:{number}: {error.message}", error.hint if self._unread == 1 else "")
-            sys.stdout.flush()
         gc.disable()
 
     def end(self) -> int:
@@ -147,13 +146,18 @@ class _Output:
 
 
 def _lines(stream: BufferedIOBase) -> Iterator[str]:
-    """Yield the lines of a stream without their blanks, each as it arrives, in constant memory."""
-    while line := stream.readline(_LONGEST_LINE + 1):
-        rest = line
-        while rest and not rest.endswith(b"\n"):
-            rest = stream.readline(_LONGEST_LINE)
-        text = line[:_LONGEST_LINE].removeprefix(BOM_UTF8).decode("utf-8", "replace").strip()
-        yield text if len(line) <= _LONGEST_LINE else f"{text}..."
+    """Yield the lines of a stream without their blanks, in constant memory; print what is due before waiting."""
+    rest, chunk = b"", b"\n"
+    while chunk:
+        sys.stdout.flush()
+        chunk = stream.read1(_LONGEST_LINE)
+        *lines, rest = (rest + chunk).split(b"\n")
+        if not chunk and rest:
+            lines, rest = [rest], b""
+        for line in lines:
+            text = line[:_LONGEST_LINE].removeprefix(BOM_UTF8).decode("utf-8", "replace").strip()
+            yield text if len(line) <= _LONGEST_LINE else f"{text}..."
+        rest = rest[: _LONGEST_LINE + 1]
 
 
 class _Printer:
@@ -165,7 +169,6 @@ class _Printer:
         self._device = device.id
         self._separator = ""
         self._coloured = is_coloured(sys.stdout)
-        self._margin = cache(lambda label: f"  {label:<{self._width}}  ")
 
     def frame(self, result: FrameResult) -> None:
         """Print the next frame."""
@@ -173,11 +176,13 @@ class _Printer:
         heading = spaced(frame) if isinstance(frame, bytes) else visible(frame.text)
         if self._coloured:
             sys.stdout.write(self._separator)
-            print_rows(heading, _rows(result), width=self._width)
+            print_rows(heading, _rows(result, _pair), width=self._width)
         else:
-            lines = [self._margin(label) + text for label, text in _rows(result)]
-            sys.stdout.write("\n".join([self._separator + heading, *lines, ""]))
+            sys.stdout.write("\n".join([self._separator + heading, *_rows(result, self._line), ""]))
         self._separator = "\n"
+
+    def _line(self, label: str, text: str) -> str:
+        return f"  {label:<{self._width}}  {text}"
 
     def end(self, nothing: str) -> None:
         """Print the end of the output; `nothing` is a text for an output without frames."""
@@ -185,17 +190,25 @@ class _Printer:
             sys.stdout.write(f"{nothing}\n")
 
 
-def _rows(result: FrameResult) -> list[tuple[str, str]]:
-    rows = [("Frame", visible(result.summary))]
+def _pair(label: str, text: str) -> tuple[str, str]:
+    return label, text
+
+
+def _rows(result: FrameResult, row: Callable[[str, str], T]) -> list[T]:
+    """Return what is printed of a frame, each as the row that `row` makes of its label and text."""
+    rows = [row("Frame", visible(result.summary))]
     for item in result.items:
-        rows.append(("Says", visible(item.summary)))
-        if item.bit_texts:
-            rows += [bits.row for bits in item.flags]
-        rows += [("Doubt", visible(doubt)) for doubt in item.doubts]
+        rows.append(row("Says", visible(item.summary)))
+        if item.bit_texts is not None and item.raw is not None:
+            rows += item.bit_texts.rows(item.raw, row)
+        for doubt in item.doubts:
+            rows.append(row("Doubt", visible(doubt)))
     if result.checks:
-        rows.append(("Header" if result.framing == "tcp" else "Checksum", visible(result.checks)))
-    rows += [("Wrong", visible(fault)) for fault in (*result.faults, *result.findings)]
-    return rows + [("Note", visible(note)) for note in result.notes]
+        rows.append(row("Header" if result.framing == "tcp" else "Checksum", visible(result.checks)))
+    for label, texts in (("Wrong", result.faults), ("Wrong", result.findings), ("Note", result.notes)):
+        for text in texts:
+            rows.append(row(label, visible(text)))
+    return rows
 
 
 class _JsonLinesPrinter(_Printer):

@@ -19,7 +19,7 @@ from fieldscribe.conversation.decoder import logged_frame
 from fieldscribe.diagnostics import UnclearError, visible
 from fieldscribe.families import family
 from fieldscribe.listening.captures import chunks_of
-from fieldscribe.listening.chunks import Chunk, timed
+from fieldscribe.listening.chunks import STREAM, Chunk, timed
 from fieldscribe.listening.exchanges import Exchange, Statistics, finding_text, seconds
 from fieldscribe.listening.listener import Listener, Station
 from fieldscribe.listening.packets import PacketWriter, is_packet_file
@@ -43,7 +43,8 @@ with a time.
 On a line nothing is sent; Ctrl-C ends it, and the summary follows.
 
 ends with 1 when there are errors, or something contradicts the manual
-ends with 2 when a capture is cut off or invalid, or a line cannot be opened or is lost; what came before is printed
+ends with 2 when a capture is cut off or invalid, or has nothing for the ports that are given, or when a line cannot be
+opened or is lost; what came before is printed
 """
 
 _GC_THRESHOLD = 100_000
@@ -168,6 +169,7 @@ class _Output:
     def __init__(self, arguments: Namespace, listener: Listener, writer: PacketWriter | None) -> None:
         self._listener, self._writer, self._statistics = listener, writer, Statistics()
         self._ports = frozenset(arguments.port) or listener.part.PORTS
+        self._lacks_ports = bool(arguments.port)
         self._json = arguments.format == "jsonl"
         kind = _JsonPrinter if self._json else _Printer
         self._printer = None if arguments.summary else kind(verbose=arguments.verbose)
@@ -181,6 +183,8 @@ class _Output:
             each, self._listener.each = (self._writer.write, None) if is_packets else (None, self._writer.write)
         try:
             for chunk in chunks_of(stream, self._ports, self._chunk_of, each):
+                if chunk.kind == STREAM:
+                    self._lacks_ports = False
                 self._take(chunk)
         except UnclearError as error:
             self._broken = True
@@ -237,7 +241,10 @@ class _Output:
             usage_error(f"{counted(self._unread, 'line')} without a frame")
         if self._listener.others:
             usage_error(f"{counted(self._listener.others, 'frame')} of another kind of bus")
-        return USAGE if self._broken else FINDINGS if statistics.wrong else FINE
+        if self._lacks_ports:
+            ports = " or ".join(map(str, sorted(self._ports)))
+            usage_error(f"--port had no effect: nothing here goes to or from port {ports}", "only networks have ports")
+        return USAGE if self._broken or self._lacks_ports else FINDINGS if statistics.wrong else FINE
 
 
 class _Printer:
@@ -250,12 +257,13 @@ class _Printer:
     def exchange(self, exchange: Exchange) -> None:
         """Print an exchange."""
         content = exchange.content
-        words = [self._moment(exchange.time), exchange.place, exchange.text]
-        words += [f"({seconds(exchange.took)})"] if exchange.took else []
+        words = [self._moment(exchange.time), visible(exchange.place), exchange.text]
+        if exchange.took:
+            words.append(f"({seconds(exchange.took)})")
         if exchange.faults or content.findings:
             wrong = (*exchange.faults, *(finding_text(*finding) for finding in content.findings.items()))
-            words.append(f"! {'; '.join(wrong)}")
-        sys.stdout.write(f"{visible('  '.join(filter(None, words)))}\n")
+            words.append(visible(f"! {'; '.join(wrong)}"))
+        sys.stdout.write(f"{'  '.join(filter(None, words))}\n")
         if self._verbose:
             for frame, result in exchange.frames:
                 sys.stdout.write(f"    {frame}\n")

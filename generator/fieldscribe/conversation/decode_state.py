@@ -264,11 +264,11 @@ class DecodeState:
         return self.formatters[key]
 
 
-def named_item(point: Point, base: Base, text: str = "", *, finding: str = "") -> Item:
+def named_item(point: Point, base: Base, text: str = "", *, finding: str = "", rests_on: tuple[str, ...] = ()) -> Item:
     """Return a point that a frame names without a number; `text` replaces its title."""
     full = f"{label(point)}: {text or english_title(point)}" + (f"; {finding}" if finding else "")
     findings = (finding,) if finding else ()
-    return Item(*base, line(full), point.item, point.code, findings=findings, carries=line(text))
+    return Item(*base, line(full), point.item, point.code, findings=findings, carries=line(text), rests_on=rests_on)
 
 
 def without_variants(points: Iterable[Point], *, limits: bool) -> list[Point]:

@@ -91,7 +91,7 @@ class StreamDecoder:
     def _pasted(self, frame: Any, *, expecting: bool = False) -> FrameResult:
         """Decode the next frame; where a text says more than bytes, the result has that."""
         result = self.decode(frame, expecting=expecting)
-        return result if isinstance(frame, bytes) else result._replace(frame=frame)
+        return result if result.frame is frame or isinstance(frame, bytes) else result._replace(frame=frame)
 
     def decode(
         self, frame: Any, *, expecting: bool = False, requests: decoded_frame.OpenRequests | None = None
@@ -123,7 +123,7 @@ class StreamDecoder:
         notes = decoded.result.notes
         if framings or decoded.request or self._misprints or data is frame:
             notes += tuple(self._warnings(decoded, data, state.directory))
-        result = decoded.result._replace(items=items, notes=notes, frame=frame)
+        result = FrameResult(*decoded.result[:-3], notes, items, frame)
         if memo is not None and framings is self._framings:
             memo[:] = state, version, result
         return result

@@ -6,13 +6,12 @@ from collections.abc import Callable, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from functools import lru_cache, partial
-from math import gcd
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 from fieldscribe import wording
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError, Settings
-from fieldscribe.arithmetic.exact import float_of
+from fieldscribe.arithmetic.exact import Line, float_of
 from fieldscribe.arithmetic.exact import pattern_of as float_pattern
 from fieldscribe.arithmetic.texts import date_of, text_of
 from fieldscribe.arithmetic.words import mask_of, words_of
@@ -21,12 +20,13 @@ from fieldscribe.diagnostics import visible
 from fieldscribe.families.frame_results import Bits, bits_label
 from fieldscribe.model import Device, Entry, Flag, Point, Text
 from fieldscribe.text import line
-from fieldscribe.wording.numbers import decimal_places, number_text, rounded, shortest
+from fieldscribe.wording.numbers import decimal_places, exact, number_text, rounded, shortest
 
 _MOST_SETTINGS = 256
 """How many numbers of the points that a scale needs are remembered, with what they make of it."""
 _GROUP = 8
 """The most bits of neighbouring flags whose texts are cached together."""
+T = TypeVar("T")
 
 
 class Meaning(NamedTuple):
@@ -75,7 +75,7 @@ class Meanings:
         meant = self._named or partial(self._quantity, settings)
         if self._is_exact and self._named is None:
             try:
-                meant = self._exact_quantity(meant, *codec.rule_in_force(self._point, settings))
+                meant = self._exact_quantity(*codec.rule_in_force(self._point, settings))
             except CodecError as error:
                 meant = _always(self._unknown(error))
         return partial(self._special_or, meant) if self._point.specials else meant
@@ -87,24 +87,23 @@ class Meanings:
         remark = ", no value" if special.no_value else ""
         return Meaning(line(f"{special.name} ({wording.title_text(special.title)}){remark}"))
 
-    def _exact_quantity(self, otherwise: Meant, ratio: Fraction, offset: Fraction) -> Meant:
-        """Return a function that does what `_quantity` does: quickly for short decimals, else by `otherwise`."""
+    def _exact_quantity(self, ratio: Fraction, offset: Fraction) -> Meant:
+        """Return a function that does what `_quantity` does, with the rule worked out in integers."""
         display, unit = self._point.display, f" {symbol}" if (symbol := self._point.unit.symbol) else ""
-        multiply, divide = offset.denominator * ratio.denominator, offset.denominator * ratio.numerator
-        add = -offset.numerator * ratio.denominator
-        common = gcd(multiply, add, divide) * (1 if divide > 0 else -1)
-        places = decimal_places(divide // common)
-        if places is None:
-            return otherwise
-        whole = 10**places
-        multiply, add = multiply * whole // divide, add * whole // divide
+        rule = (offset.denominator * ratio.denominator, -offset.numerator * ratio.denominator)
+        multiply, add, divide = Line.reduced(*rule, offset.denominator * ratio.numerator)
+        places = decimal_places(divide)
+        if places is not None:
+            multiply, add, divide = multiply * 10**places // divide, add * 10**places // divide, 10**places
 
         def meant(raw: int) -> Meaning:
-            count = raw * multiply + add
-            value = shortest(count, places)
+            number = raw * multiply + add
+            value = exact(number, divide) if places is None else shortest(number, places)
             if display is not None:
-                return Meaning(f"{rounded(count, whole, display)}{unit}", value)
-            return Meaning(value + unit, value) if is_short(value) else otherwise(raw)
+                text = rounded(number, divide, display)
+            else:
+                text = value if is_short(value) else amount(Fraction(number, divide))
+            return Meaning(text + unit, value)
 
         return meant
 
@@ -163,42 +162,50 @@ class FlagTexts:
     """Explains the flags of a point. Neighbouring flags share a cache, because a word has too many numbers for one."""
 
     def __init__(self, point: Point) -> None:
-        self._width, self._unnamed = point.width, mask_of(point.width)
-        self._lowest = point.bits[1] if point.bits else 0
-        self._groups: list[tuple[int, Callable[[int], _Texts], Callable[[int], list[Bits]]]] = []
+        lowest = point.bits[1] if point.bits else 0
+        self._named: list[tuple[int, Callable[[int], _Texts]]] = []
+        self._groups: list[tuple[int, Callable[[int], list[Bits]], Callable[..., Any]]] = []
+        """Bits that share a cache: their mask, and what returns the bits of a number, and their rows."""
         flags: list[Flag] = []
         for flag, following in zip(point.flags, (*point.flags[1:], None), strict=True):
             flags.append(flag)
             if following is None or sum(one.width for one in (*flags, following)) > _GROUP:
                 mask = sum(mask_of(one.width, one.low) for one in flags)
-                texts, bits = partial(_texts_of, tuple(flags)), partial(_bits_of, tuple(flags), self._lowest)
-                self._groups.append((mask, lru_cache(1 << _GROUP)(texts), lru_cache(1 << _GROUP)(bits)))
-                self._unnamed &= ~mask
+                self._named.append((mask, lru_cache(1 << _GROUP)(partial(_texts_of, tuple(flags)))))
+                self._add(mask, partial(_bits_of, tuple(flags), lowest))
                 flags.clear()
+        self._unnamed = [bit for bit in range(point.width) if not any(mask >> bit & 1 for mask, _ in self._named)]
+        for first in range(0, len(self._unnamed), _GROUP):
+            bits = self._unnamed[first : first + _GROUP]
+            self._add(sum(1 << bit for bit in bits), partial(_nameless_bits, bits, lowest))
+
+    def _add(self, mask: int, bits: Callable[[int], list[Bits]]) -> None:
+        """Add a group of bits to those that `bits` and `rows` explain."""
+        bits = lru_cache(1 << _GROUP)(bits)
+        self._groups.append((mask, bits, lru_cache(1 << _GROUP)(lambda raw, row: [row(*one.row) for one in bits(raw)])))
 
     def sentence(self, raw: int) -> str:
         """Return all flags in one sentence: those that are true first."""
-        texts = [texts(raw & mask) for mask, texts, _ in self._groups]
+        texts = [texts(raw & mask) for mask, texts in self._named]
         parts = [", ".join([true for true, _ in texts if true]) or "none set"]
         if false := ", ".join([false for _, false in texts if false]):
             parts.append(f"not set: {false}")
-        if bits := self._nameless(raw):
+        if bits := [bit for bit in self._unnamed if raw >> bit & 1]:
             named = ", ".join(map(str, bits))
             parts.append(f"also bit{'s' if len(bits) > 1 else ''} {named}, which the manual does not name")
         return "; ".join(parts)
 
     def true(self, raw: int) -> str:
         """Return only the flags that apply."""
-        return ", ".join([true for mask, texts, _ in self._groups if (true := texts(raw & mask)[0])]) or "none set"
+        return ", ".join([true for mask, texts in self._named if (true := texts(raw & mask)[0])]) or "none set"
 
     def bits(self, raw: int) -> list[Bits]:
         """Return each flag, and each set bit that the manual does not name."""
-        named = [one for mask, _, bits in self._groups for one in bits(raw & mask)]
-        return named + [_nameless_bit(self._lowest + bit) for bit in self._nameless(raw)]
+        return [one for mask, bits, _ in self._groups for one in bits(raw & mask)]
 
-    def _nameless(self, raw: int) -> list[int]:
-        rest = raw & self._unnamed
-        return [bit for bit in range(self._width) if rest >> bit & 1] if rest else []
+    def rows(self, raw: int, row: Callable[[str, str], T]) -> list[T]:
+        """Return the same, each as the row that `row` makes of its label and text."""
+        return [one for mask, _, rows in self._groups for one in rows(raw & mask, row)]
 
 
 _Texts = tuple[str, str]
@@ -231,8 +238,9 @@ def _flag_bits(flag: Flag, lowest: int, number: int) -> Bits:
     return Bits(high, low, flag.name, number, true, text, (bits_label(high, low), visible(row)))
 
 
-def _nameless_bit(bit: int) -> Bits:
-    return Bits(bit, bit, None, 1, None, "", (bits_label(bit, bit), "1  not named by the manual"))
+def _nameless_bits(bits: Sequence[int], lowest: int, raw: int) -> list[Bits]:
+    places = [lowest + bit for bit in bits if raw >> bit & 1]
+    return [Bits(at, at, None, 1, None, "", (bits_label(at, at), "1  not named by the manual")) for at in places]
 
 
 def _entry(flag: Flag, number: int) -> Entry | None:

@@ -79,7 +79,7 @@ def piece_items(state: DecodeState, piece: Piece) -> list[Item]:
             continue
         if raw is None:
             text = _incomplete_text(state, layout, formatter)
-            items.append(named_item(formatter.point, formatter.base, text).but(rests_on=formatter.rests_on))
+            items.append(named_item(formatter.point, formatter.base, text, rests_on=formatter.rests_on))
             continue
         item = make(raw)
         if item.missing:

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields
 from types import MappingProxyType
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol, TypeVar
 
 from fieldscribe.diagnostics import RefusedError
 from fieldscribe.model import Bus, Point
 from fieldscribe.wording import label
 from fieldscribe.wording.numbers import units_text
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +58,9 @@ class BitTexts(Protocol):
 
     def bits(self, raw: int) -> list[Bits]:
         """Return each flag, and each set bit that the manual does not name."""
+
+    def rows(self, raw: int, row: Callable[[str, str], T]) -> list[T]:
+        """Return the same, each as the row that `row` makes of its label and text."""
 
     def sentence(self, raw: int) -> str:
         """Return the same in one sentence."""
@@ -149,7 +154,7 @@ class FrameResult(NamedTuple):
     `kind`: request, reply, request_or_reply, exception, cyclic, broadcast, other (not of this device), unreadable.
     `faults` say what is damaged in the frame; `findings` say where an undamaged frame contradicts the manual; `notes`
     are other remarks. `details` are further facts of the family for JSON. `refusal` says how the device refuses a
-    request, in one line. `frame` is what was decoded; a family leaves it out.
+    request, in one line. A family leaves out the last two: the items of its contents, and `frame`, what was decoded.
     """
 
     framing: str
@@ -157,14 +162,14 @@ class FrameResult(NamedTuple):
     unit: int | None
     function: int | None
     summary: str
-    items: tuple[Item, ...] = ()
     checks: str = ""
     faults: tuple[str, ...] = ()
     findings: tuple[str, ...] = ()
-    notes: tuple[str, ...] = ()
     exception: int | None = None
     details: Mapping[str, object] = MappingProxyType({})
     refusal: str = ""
+    notes: tuple[str, ...] = ()
+    items: tuple[Item, ...] = ()
     frame: bytes | Captured = b""
 
     def as_data(self) -> dict[str, object]:

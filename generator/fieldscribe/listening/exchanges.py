@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, NamedTuple
 
+from fieldscribe.diagnostics import visible
 from fieldscribe.families.frame_results import FrameResult, Item
 from fieldscribe.listening.chunks import Cut
 from fieldscribe.model import Device
@@ -53,11 +54,11 @@ class Content:
 
     @property
     def text(self) -> str:
-        """The unit, the action, and what was read or written, in words."""
+        """The unit, the action, and what was read or written, in words; escaped for a terminal."""
         if not self._text:
             unit = "" if self.unit is None else f"unit {self.unit}"
             items = ", ".join(map(item_text, self.items)) or self.summary
-            self._text = "  ".join(filter(None, (unit, self.action, items)))
+            self._text = visible("  ".join(filter(None, (unit, self.action, items))))
         return self._text
 
 

@@ -18,7 +18,9 @@ from fieldscribe.model import Device
 
 _ASKS, _ANSWERS = ("request", "request_or_reply"), ("reply", "exception")
 _MOST_OPEN = 1024
-"""The most requests that may wait for an answer; also the most frames whose content is cached."""
+"""The most requests that may wait for an answer."""
+_MOST_CONTENTS = 256
+"""The most frames whose content is cached."""
 NO_ANSWER = "no answer"
 ALONE = "an answer without a request before it"
 NOISE = "bytes that are no frame"
@@ -160,7 +162,7 @@ class Listener:
     def _content(self, station: Station, request: FrameResult | None, reply: FrameResult | None) -> Content:
         key = id(request), id(reply)
         if key not in self._contents:
-            if len(self._contents) >= _MOST_OPEN:
+            if len(self._contents) >= _MOST_CONTENTS:
                 self._contents.clear()
             main = request or reply
             unit, action = (None, "") if main is None else (main.unit, self.part.action(main))

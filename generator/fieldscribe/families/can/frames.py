@@ -3,10 +3,10 @@
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from operator import itemgetter
+from struct import Struct
 from types import MappingProxyType
 from typing import NamedTuple
 
-from fieldscribe.arithmetic.words import words_in
 from fieldscribe.model import Device, Message, Role, Telegram
 
 LENGTH = 8
@@ -257,6 +257,7 @@ class Receiver:
         at = {role.number: place for place, role in enumerate(message.roles) if role.kind == "word"}
         words = dict.fromkeys(number // 2 for number in at)
         self._own = itemgetter(*[at.get(number, -1) for word in words for number in (2 * word, 2 * word + 1)])
+        self._words_in = Struct(f">{len(words)}H").unpack
         firsts = range(0, telegram.words, self.per_frame)
         self.positions = [range(first, min(first + self.per_frame, telegram.words)) for first in firsts]
         """The positions of the words of a frame, for each multiplexer value."""
@@ -276,7 +277,7 @@ class Receiver:
         slot = self._slots[place]
         slot.words_before, slot.before = slot.words, slot.at
         data = frame.data + b"\0"  # the half of a word that no byte carries is 0
-        slot.words, slot.at = words_in(bytes(self._own(data))), self._clock
+        slot.words, slot.at = self._words_in(bytes(self._own(data))), self._clock
         return slot.words
 
     def words(self, positions: Sequence[int]) -> tuple[str, tuple[int, ...]]:

@@ -193,7 +193,7 @@ def _reply(
 ) -> DecodedFrame:
     framing, unit = unwrapped.framing, unwrapped.unit
     text, checks = remarks.reply_text(framing, unit, request), remarks.frame_checks(unwrapped)
-    result = FrameResult(framing, "reply", unit, request.function, text, (), checks, faults)
+    result = FrameResult(framing, "reply", unit, request.function, text, checks, faults)
     return DecodedFrame(result, contents, answers=answers)
 
 
@@ -218,7 +218,7 @@ def _result(
     function = function & 0x7F if function is not None and kind == "exception" else function
     summary = remarks.summary(unwrapped.framing, unwrapped.unit, function, text)
     framing, unit, checks = unwrapped.framing, unwrapped.unit, remarks.frame_checks(unwrapped)
-    return FrameResult(framing, kind, unit, function, summary, (), checks, (), findings, notes)
+    return FrameResult(framing, kind, unit, function, summary, checks, (), findings, notes=notes)
 
 
 def _unreadable(unwrapped: Unwrapped, flaw: Flaw) -> DecodedFrame:
