@@ -32,7 +32,7 @@ def ascii_text(text: str) -> str:
 
 
 def line(text: str) -> str:
-    """Return one clean line: white space is folded; control, format (bidi) and unassigned characters are dropped."""
+    """Return one printable line: white space is folded; control, format (bidi), unassigned characters are dropped."""
     if text.isprintable() and "  " not in text and text[:1] != " " and text[-1:] != " ":
         return text
     if not _PLAIN.fullmatch(text):
@@ -78,17 +78,9 @@ def python_string(text: str) -> str:
     """Return a Python string literal as formatters write it: in single quotes if these need fewer escapes."""
     if _UNQUOTED.fullmatch(text):
         return f'"{text}"'
-    cleaned = line(text)
+    cleaned = line(text).replace("\\", "\\\\")
     quote = "'" if cleaned.count('"') > cleaned.count("'") else '"'
-    escaped = []
-    for char in cleaned:
-        if char in ("\\", quote):
-            escaped.append("\\" + char)
-        elif char.isprintable():
-            escaped.append(char)
-        else:
-            escaped.append(f"\\U{ord(char):08x}")
-    return quote + "".join(escaped) + quote
+    return quote + cleaned.replace(quote, f"\\{quote}") + quote
 
 
 def python_doc(text: str) -> str:
@@ -113,17 +105,13 @@ def rust_string(text: str) -> str:
 
 
 def _escaped(text: str) -> str:
-    """Return text for a literal in double quotes of Rust or JavaScript."""
-    cleaned = line(text).replace("\\", "\\\\").replace('"', '\\"')
-    if cleaned.isprintable():
-        return cleaned
-    return "".join([char if char.isprintable() else f"\\u{{{ord(char):x}}}" for char in cleaned])
+    """Return text for a literal in double quotes of Rust, TOML or JavaScript."""
+    return line(text).replace("\\", "\\\\").replace('"', '\\"')
 
 
 def toml_string(text: str) -> str:
     """Return a TOML string with its quotes."""
-    cleaned = line(text).replace("\\", "\\\\").replace('"', '\\"')
-    return '"' + "".join([char if char.isprintable() else f"\\U{ord(char):08X}" for char in cleaned]) + '"'
+    return f'"{_escaped(text)}"'
 
 
 _SCRIPT = re.compile(r"<(?=[!/])|(?<=--)>")

@@ -74,6 +74,13 @@ def test_a_c_string_holds_the_bytes_of_its_text(hostile: str) -> None:
     assert octal.encode("latin-1").decode("utf-8") == text.line(hostile)
 
 
+def test_every_character_of_a_line_is_printable() -> None:
+    """So no literal needs an escape for a character."""
+    line = text.line("".join(map(chr, range(0x110000))))
+    assert line.isprintable()
+    assert len(line) > 100_000
+
+
 @on_each_text
 def test_a_python_string_is_its_text(hostile: str) -> None:
     assert ast.literal_eval(text.python_string(hostile)) == text.line(hostile)

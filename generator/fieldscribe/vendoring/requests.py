@@ -201,11 +201,8 @@ class CodeRequest:
             points = ",".join(self.points)
             fits = len(points) <= _POINTS_IN_A_HEAD and not any("," in point for point in self.points)
             words += ["--points", points if fits else LEFT_OUT]
-        words += ["--single-file"] if self.single_file else []
-        words += [] if self.frames else ["--no-frames"]
-        words += ["--rows"] if self.rows else []
-        words += ["--wheel"] if self.wheel else []
-        return tuple(words)
+        given = {"single-file": self.single_file, "no-frames": not self.frames, "rows": self.rows, "wheel": self.wheel}
+        return (*words, *(f"--{switch}" for switch, is_given in given.items() if is_given))
 
     def as_data(self, device: str) -> dict[str, object]:
         """Return the request as the manifest records it."""
