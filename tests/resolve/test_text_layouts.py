@@ -38,9 +38,14 @@ def test_the_nearest_place_decides(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("order", ["low first", "{text: low first}"])
 def test_the_bus_may_have_an_order(tmp_path: Path, order: str) -> None:
-    bus = f"{{framings: [rtu], units: 1..247, bytes: {order}, functions: {{03h: read, 06h: write, 10h: write_many}}}}"
+    """Listed addresses stand as they are listed."""
+    orders = f"bytes: {order}, words: low first"
+    bus = f"{{framings: [rtu], units: 1..247, {orders}, functions: {{03h: read, 06h: write, 10h: write_many}}}}"
     whole = head(bus=bus, formats="{code: {type: text, characters: 2}}")
-    assert loaded_in(tmp_path, together(whole, group(POINTS))).points[0].text == Text(4, "ascii", low_first=True)
+    rows = POINTS + "- {name: listed, at: [90, 95], type: u32, access: r}\n"
+    points = {point.name: point for point in loaded_in(tmp_path, together(whole, group(rows))).points}
+    assert points["plain"].text == Text(4, "ascii", low_first=True)
+    assert [points[name].addresses for name in ("number", "listed")] == [(71, 70), (90, 95)]
 
 
 @pytest.mark.parametrize(
