@@ -290,8 +290,6 @@ class _Layout:
         self.line += piece.text
         if piece.kind in _OPENING:
             self.within.append(_Frame("flow", piece.column + 1, len(self.line)))
-        elif piece.kind == "document" and self.within:
-            self.within.clear()
 
     def _refuse_mark(self, piece: Piece) -> None:
         """Refuse a key that would be read as a document marker at the start of a line."""

@@ -76,8 +76,6 @@ def _codes(kind: Codes, codes: tuple[Code, ...], scope: HeaderScope) -> dict[str
 
 def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: frames.Layouts) -> frames.Frame | None:
     """Return the tasks of a parameter; None if no task of the device reaches it."""
-    if point.info.bits > 32:
-        return None
     width, array = 2 if point.info.bits == 32 else 1, point.index is not None
     ram, eeprom = (write_task(width, array=array, keep=keep) for keep in (False, True))
     reading = [task for task in (READ_TASK, READ_ELEMENT_TASK) if task in tasks and point.readable][:1]
