@@ -8,8 +8,7 @@ from hashlib import sha256
 from pathlib import Path
 
 import pytest
-from fieldscribe.output.contents import Spool, contents_of
-from fieldscribe.output.manifests import Manifests
+from fieldscribe.output.files import Manifests, Spool, contents_of
 from fieldscribe.output.plan import Plan, changed_since, plan_of
 from fieldscribe.output.writing import carry_out
 from fieldscribe.safe_files import state_of

@@ -12,7 +12,7 @@ import pytest
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report, UnclearError
 from fieldscribe.model import Device
-from fieldscribe.output.manifests import VENDORED, made_of
+from fieldscribe.output.files import VENDORED, made_of
 from fieldscribe.pipeline import load_device
 from fieldscribe.vendoring.requests import LANGUAGES, LICENCE, CodeRequest, files_of
 from fieldscribe.vendoring.selection import select

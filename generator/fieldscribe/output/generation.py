@@ -17,9 +17,8 @@ from typing import NamedTuple, TypeVar
 
 from fieldscribe.diagnostics import Report, Span, show_traceback
 from fieldscribe.model import Device
-from fieldscribe.output.contents import Contents, Spool
+from fieldscribe.output.files import FOLDER, GENERATED, Contents, Manifests, Record, Spool
 from fieldscribe.output.lock import only_run
-from fieldscribe.output.manifests import FOLDER, GENERATED, Manifests, Record
 from fieldscribe.output.memory import Memory
 from fieldscribe.output.plan import Plan, TargetFiles, changed_since, plan_of
 from fieldscribe.output.writing import Result, carry_out

@@ -5,8 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from fieldscribe.output.contents import Contents, contents_of
-from fieldscribe.output.manifests import Manifests, Targets, made_of, manifest_text
+from fieldscribe.output.files import Contents, Manifests, Targets, contents_of, made_of, manifest_text
 from fieldscribe.safe_files import State, UnsafePathError, inside, kind_of, read_regular, state_at
 
 TargetFiles = dict[str, dict[str, Contents]]

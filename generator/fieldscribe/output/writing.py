@@ -18,7 +18,7 @@ from fieldscribe.resources import compiler_files
 from fieldscribe.safe_files import State, UnfitFileError, inside, kind_of, state_of
 
 if TYPE_CHECKING:
-    from fieldscribe.output.manifests import Manifests
+    from fieldscribe.output.files import Manifests
     from fieldscribe.output.plan import Plan
 
 _NEW = ".fieldscribe-new"

@@ -8,9 +8,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from fieldscribe.diagnostics import UnclearError
-from fieldscribe.output.contents import Contents, contents_of
+from fieldscribe.output.files import VENDORED, Contents, Manifests, contents_of, manifest_text
 from fieldscribe.output.lock import only_run
-from fieldscribe.output.manifests import VENDORED, Manifests, manifest_text
 from fieldscribe.output.plan import Plan, TargetFiles, plan_of
 from fieldscribe.output.writing import carry_out
 from fieldscribe.safe_files import read_regular
