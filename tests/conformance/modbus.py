@@ -18,9 +18,9 @@ def _request(package: Package, vector: Vector) -> Any:
 
 
 def _frames(vector: Vector) -> Iterator[tuple[bytes, str]]:
-    """The frame of a vector with its framing, and the PDU in it unless the checksum alone is wrong."""
+    """The frame of a vector with its framing, and the PDU in it unless the checksum or the framing is wrong."""
     yield vector["bytes"], vector["framing"]
-    if vector["framing"] == "rtu" and vector["status"] != "bad_crc":
+    if vector["framing"] == "rtu" and vector["status"] not in ("bad_crc", "bad_framing"):
         yield vector["bytes"][:-2], "pdu"
 
 

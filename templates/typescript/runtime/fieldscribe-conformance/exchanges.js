@@ -171,11 +171,12 @@ function modbusRequestOf({ unit, function: code, address, count, values }) {
   return { unit, function: code, address, count, values: values ?? [] };
 }
 
-/** The frame of a vector with its framing, and the PDU in it unless the checksum alone is wrong. @param {any} vector
+/** The frame of a vector with its framing, and the PDU in it unless checksum or framing are wrong. @param {any} vector
  * @returns {[Uint8Array, import("../fieldscribe-runtime/modbus-frames.js").ModbusFraming][]} */
 function modbusFramesOf({ framing, status, bytes: given }) {
   const bytes = given ?? new Uint8Array(0);
-  return framing === "rtu" && status !== "bad_crc" ? [[bytes, framing], [bytes.subarray(0, -2), "pdu"]] : [[bytes, framing]];
+  if (framing !== "rtu" || status === "bad_crc" || status === "bad_framing") return [[bytes, framing]];
+  return [[bytes, framing], [bytes.subarray(0, -2), "pdu"]];
 }
 
 /** @param {DeviceClass} device @param {any} vector */
