@@ -1,17 +1,282 @@
-"""Opens captures of any kind: packets (pcap, pcapng), messages (BLF, ASC), or lines of text."""
+"""Opens captures of any kind: packets (pcap, pcapng), messages (BLF, ASC), or lines of text; and writes pcapng.
+
+Captures are untrusted: an impossible length is an error that names the packet, and nothing large is read.
+"""
 
 import json
-from collections.abc import Callable, Iterator
+import struct
+from collections import OrderedDict
+from collections.abc import Callable, Container, Iterable, Iterator
+from dataclasses import dataclass, field
 from io import SEEK_END, BufferedReader, TextIOWrapper
-from typing import Any
+from typing import Any, BinaryIO
 
 from fieldscribe.diagnostics import UnclearError
-from fieldscribe.listening.chunks import MESSAGE, Chunk, Packet
-from fieldscribe.listening.packets import Packets, is_packet_file, read_packets
+from fieldscribe.listening.chunks import BUS_SOCKET, BYTES, MESSAGE, SERIAL, STREAM, Chunk, Packet
 
+_CLASSIC = {
+    b"\xd4\xc3\xb2\xa1": ("<", 1e6),
+    b"\xa1\xb2\xc3\xd4": (">", 1e6),
+    b"\x4d\x3c\xb2\xa1": ("<", 1e9),
+    b"\xa1\xb2\x3c\x4d": (">", 1e9),
+}
+"""The first bytes of a pcap file, with its byte order and fractions of a second."""
+_SECTION = b"\x0a\x0d\x0d\x0a"
+_INTERFACE, _SIMPLE, _ENHANCED = 1, 3, 6
+_RESOLUTION = 9
+"""The option of an interface with the fractions of a second."""
+_MOST_BYTES = 1 << 20
+"""The most bytes of a packet or block; a larger one means that the file is corrupt."""
+_MOST_INTERFACES = 1024
 _LONGEST_LINE = 1 << 16
 _ENOUGH = 1000
 """A file that starts with this many lines without a frame is no log."""
+_NO_FRAME = (
+    "it has no frame",
+    "captures are pcap, pcapng, BLF, ASC, logs of candump, traces of `simulate`, lines of hexadecimal bytes with times",
+)
+_BLF, _ASC = b"LOGG", b"date"
+"""The first bytes of BLF and of ASC files."""
+
+
+def is_packet_file(start: bytes) -> bool:
+    """Return True if a file starts like pcap or pcapng."""
+    return start[:4] in _CLASSIC or start[:4] == _SECTION
+
+
+def read_packets(stream: BinaryIO) -> Iterator[Packet]:
+    """Return the packets of a capture. Raises UnclearError if the file is cut off or corrupt."""
+    magic = _exactly(stream, 4, "the header")
+    return _enhanced(stream) if magic == _SECTION else _classic(stream, *_CLASSIC[magic])
+
+
+def _classic(stream: BinaryIO, order: str, parts: float) -> Iterator[Packet]:
+    link = struct.unpack(f"{order}HHiIII", _exactly(stream, 20, "the header"))[-1] & 0xFFFF
+    head = struct.Struct(f"{order}IIII")
+    number = 1
+    while start := stream.read(16):
+        if len(start) < 16:
+            raise _cut_off(number)
+        seconds, part, size, _ = head.unpack(start)
+        yield Packet(seconds + part / parts, link, _exactly(stream, size, number))
+        number += 1
+
+
+def _enhanced(stream: BinaryIO) -> Iterator[Packet]:
+    """Yield the packets of pcapng, whose first four bytes are read."""
+    interfaces: list[tuple[int, float]] = []
+    order, number, start = "<", 1, _SECTION
+    while start:
+        start += _exactly(stream, 4, number)
+        if start[:4] == _SECTION:
+            interfaces, mark = [], _exactly(stream, 4, number)
+            order = "<" if mark == b"\x4d\x3c\x2b\x1a" else ">"
+            body = _exactly(stream, struct.unpack(f"{order}I", start[4:])[0] - 16, number)
+            _exactly(stream, 4, number)
+        else:
+            kind, size = struct.unpack(f"{order}II", start)
+            body = _exactly(stream, size - 12, number)
+            _exactly(stream, -size % 4 + 4, number)
+            if kind == _INTERFACE and len(interfaces) < _MOST_INTERFACES:
+                interfaces.append(_interface(order, body))
+            elif kind in (_ENHANCED, _SIMPLE) and (packet := _packet(order, kind, body, interfaces)):
+                yield packet
+                number += 1
+        start = stream.read(4)
+        if 0 < len(start) < 4:
+            raise _cut_off(number)
+
+
+def _interface(order: str, body: bytes) -> tuple[int, float]:
+    """Return the link type of an interface, and the fractions of a second of its times."""
+    link = int.from_bytes(body[:2], "little" if order == "<" else "big")
+    at, parts = 8, 1e6
+    while at + 4 < len(body):
+        code, size = struct.unpack_from(f"{order}HH", body, at)
+        if code == _RESOLUTION and size:
+            power = body[at + 4]
+            parts = float(2 ** (power & 0x7F) if power & 0x80 else 10 ** min(power, 30))
+        at += 4 + size + -size % 4
+    return link, parts
+
+
+def _packet(order: str, kind: int, body: bytes, interfaces: list[tuple[int, float]]) -> Packet | None:
+    """Return the packet of a block; None if it has no interface."""
+    if kind == _SIMPLE:
+        return Packet(None, interfaces[0][0], body[4:]) if interfaces else None
+    if len(body) < 20:
+        return None
+    interface, high, low, size, _ = struct.unpack_from(f"{order}IIIII", body)
+    if interface >= len(interfaces):
+        return None
+    link, parts = interfaces[interface]
+    return Packet((high << 32 | low) / parts, link, body[20 : 20 + size])
+
+
+def _exactly(stream: BinaryIO, size: int, where: int | str) -> bytes:
+    """Return `size` bytes. Raises UnclearError."""
+    if not 0 <= size <= _MOST_BYTES:
+        place = f"packet {where}" if isinstance(where, int) else where
+        raise UnclearError(f"{place} says that it has {size} bytes", "the capture is damaged from there on")
+    data = stream.read(size)
+    if len(data) < size:
+        raise _cut_off(where)
+    return data
+
+
+def _cut_off(where: int | str) -> UnclearError:
+    place = f"packet {where}" if isinstance(where, int) else where
+    return UnclearError(f"the capture is cut off within {place}", "what comes before it was read")
+
+
+class PacketWriter:
+    """Writes packets to a stream as pcapng; each type of link becomes an interface."""
+
+    def __init__(self, stream: BinaryIO) -> None:
+        self._stream = stream
+        self._interfaces: dict[int, int] = {}
+        self._block(0x0A0D0D0A, struct.pack("<IHHq", 0x1A2B3C4D, 1, 0, -1))
+
+    def write(self, packet: Packet) -> None:
+        """Write a packet."""
+        if packet.link not in self._interfaces:
+            self._interfaces[packet.link] = len(self._interfaces)
+            self._block(_INTERFACE, struct.pack("<HHI", packet.link, 0, 0))
+        moment, size = max(0, round((packet.time or 0) * 1e6)), len(packet.data)
+        interface = self._interfaces[packet.link]
+        head = struct.pack("<IIIII", interface, moment >> 32 & 0xFFFFFFFF, moment & 0xFFFFFFFF, size, size)
+        self._block(_ENHANCED, head + packet.data)
+
+    def _block(self, kind: int, body: bytes) -> None:
+        size = len(body) + -len(body) % 4 + 12
+        self._stream.write(struct.pack("<II", kind, size) + body.ljust(size - 12, b"\0") + struct.pack("<I", size))
+
+
+_HEADS = {1: (14, 12), 113: (16, 14), 276: (20, 0), 0: (4, -1), 108: (4, -1), 101: (0, -1), 228: (0, -1), 229: (0, -1)}
+"""Network link types: the size of their header, and the offset of the protocol; -1 for plain IP packets."""
+_USERS = range(SERIAL, SERIAL + 16)
+_IP4, _IP6, _VLAN, _BUS, _TCP = 0x0800, 0x86DD, (0x8100, 0x88A8), (0x000C, 0x000D), 6
+_FIN, _SYN, _RST = 1, 2, 4
+_MOST_CONNECTIONS, _MOST_HELD, _HALF = 1024, 32, 1 << 31
+"""Limits: connections that are followed, segments that wait for an earlier one, half of the sequence numbers."""
+
+
+@dataclass(slots=True)
+class _Direction:
+    """One direction of a connection: the next sequence number, and segments that arrived too early."""
+
+    due: int | None = None
+    held: dict[int, bytes] = field(default_factory=dict)
+
+
+class Packets:
+    """Turns packets into chunks; `ports` are those of the devices."""
+
+    def __init__(self, ports: Container[int]) -> None:
+        self._ports = ports
+        self._directions: OrderedDict[tuple[bytes, bytes], _Direction] = OrderedDict()
+
+    def chunks(self, packet: Packet) -> Iterable[Chunk]:
+        """Return the chunks of a packet; any bytes are safe."""
+        link, data = packet.link, packet.data
+        if link == BUS_SOCKET:
+            return _message(packet.time, data)
+        if link in _USERS:
+            return (Chunk(packet.time, BYTES, data),)
+        if link in _HEADS:
+            size, place = _HEADS[link]
+            protocol = _ip_of(data[size:]) if place < 0 else int.from_bytes(data[place : place + 2], "big")
+            while protocol in _VLAN:
+                protocol, size = int.from_bytes(data[size + 2 : size + 4], "big"), size + 4
+            if protocol in _BUS:
+                return _message(packet.time, data[size:])
+            if protocol in (_IP4, _IP6):
+                return self._internet(packet.time, data[size:], protocol)
+        return ()
+
+    def _internet(self, time: float | None, data: bytes, protocol: int) -> Iterator[Chunk]:
+        if len(data) < 40:
+            return
+        if protocol == _IP4:
+            head, last = (data[0] & 15) * 4, int.from_bytes(data[2:4], "big") or len(data)
+            if data[9] != _TCP or int.from_bytes(data[6:8], "big") & 0x3FFF:
+                return
+            source, target = data[12:16], data[16:20]
+        else:
+            head, last = 40, 40 + int.from_bytes(data[4:6], "big")
+            if data[6] != _TCP:
+                return
+            source, target = data[8:24], data[24:40]
+        segment = data[head:last]
+        if len(segment) >= 20:
+            yield from self._segment(time, source, target, segment)
+
+    def _segment(self, time: float | None, source: bytes, target: bytes, segment: bytes) -> Iterator[Chunk]:
+        ports = int.from_bytes(segment[:2], "big"), int.from_bytes(segment[2:4], "big")
+        sent = ports[1] in self._ports
+        if not sent and ports[0] not in self._ports:
+            return
+        flags, data = segment[13], segment[(segment[12] >> 4) * 4 :]
+        number = int.from_bytes(segment[4:8], "big")
+        way = self._way((source + segment[:2], target + segment[2:4]))
+        if flags & (_SYN | _RST):
+            way.due, way.held = (number + 1) % (1 << 32), {}
+        if data and not flags & _SYN:
+            client, port = (source, ports[0]) if sent else (target, ports[1])
+            place = f"{_address(client)}:{port}"
+            for fresh, piece in _in_order(way, number, data):
+                yield Chunk(time, STREAM, piece, place, sent, fresh)
+
+    def _way(self, key: tuple[bytes, bytes]) -> _Direction:
+        way = self._directions.setdefault(key, _Direction())
+        self._directions.move_to_end(key)
+        if len(self._directions) > _MOST_CONNECTIONS:
+            self._directions.popitem(last=False)
+        return way
+
+
+def _in_order(way: _Direction, number: int, data: bytes) -> Iterator[tuple[bool, bytes]]:
+    """Yield the bytes that follow now, once each and in order; True with those after lost ones."""
+    fresh = way.due is None
+    due = number if way.due is None else way.due
+    way.held[number] = data
+    while way.held:
+        first = min(way.held, key=lambda at: (at - due) % (1 << 32) if (at - due) % (1 << 32) < _HALF else -1)
+        ahead = (first - due) % (1 << 32)
+        if 0 < ahead < _HALF and len(way.held) < _MOST_HELD:
+            break
+        piece = way.held.pop(first)
+        if 0 < ahead < _HALF:
+            fresh, due, ahead = True, first, 0
+        piece = piece[-ahead % (1 << 32) :]
+        if piece:
+            yield fresh, piece
+            due, fresh = (due + len(piece)) % (1 << 32), False
+    way.due = due
+
+
+def _message(time: float | None, data: bytes) -> tuple[Chunk, ...]:
+    """Return the message of a packet of SocketCAN; error frames are no messages."""
+    if len(data) < 8:
+        return ()
+    identifier, size = int.from_bytes(data[:4], "big"), data[4]
+    if identifier & 0x20000000 or size > len(data) - 8:
+        return ()
+    mask = 0x1FFFFFFF if identifier & 0x80000000 else 0x7FF
+    remote = bool(identifier & 0x40000000)
+    content = b"" if remote else data[8 : 8 + size]
+    return (Chunk(time, MESSAGE, content, "", None, False, identifier & mask, remote),)
+
+
+def _ip_of(data: bytes) -> int:
+    return {4: _IP4, 6: _IP6}.get(data[0] >> 4 if data else 0, 0)
+
+
+def _address(address: bytes) -> str:
+    """Return an address in its usual notation."""
+    if len(address) == 4:
+        return ".".join(map(str, address))
+    return f"[{':'.join(f'{address[at] << 8 | address[at + 1]:x}' for at in range(0, 16, 2))}]"
 
 
 def chunks_of(
@@ -44,9 +309,9 @@ def chunks_of(
         elif text:
             skipped += 1
             if skipped == _ENOUGH and not has_frames:
-                raise UnclearError(*_NONE)
+                raise UnclearError(*_NO_FRAME)
     if skipped and not has_frames:
-        raise UnclearError(*_NONE)
+        raise UnclearError(*_NO_FRAME)
 
 
 def _frames_in(text: str) -> list[str]:
@@ -60,16 +325,6 @@ def _frames_in(text: str) -> list[str]:
         return [f"{time:.6f} {entry[key]}" for key, time in times.items() if entry[key]]
     except (ValueError, KeyError, TypeError, RecursionError):
         return [text]
-
-
-_NONE = (
-    "it has no frame",
-    "captures are pcap, pcapng, BLF, ASC, logs of candump, traces of `simulate`, lines of hexadecimal bytes with times",
-)
-
-
-_BLF, _ASC = b"LOGG", b"date"
-"""The first bytes of such files."""
 
 
 def is_bus_file(start: bytes) -> bool:
