@@ -32,7 +32,10 @@ _MOST_ITEMS, _FEW_BITS = 64, 8
 
 
 class PointFormatter:
-    """Turns the raw numbers of one point into items; on a bus most numbers come again, so items are cached."""
+    """Turns the raw numbers of one point into items.
+
+    On a bus most numbers come again, so items are cached, unless they rest on other points.
+    """
 
     def __init__(
         self,
@@ -58,7 +61,8 @@ class PointFormatter:
         self.meanings = Meanings(device, point)
         # typed: a special code equals the plain number, and is no quantity
         self._under = lru_cache(MOST_SETTINGS, typed=True)(self._made_under)
-        self._always = self._made_under(*[None for _ in self.needs])
+        most = 1 << point.width if point.width <= _FEW_BITS else _MOST_ITEMS
+        self._always = lru_cache(most)(self._made_under(*[None for _ in self.needs]))
 
     def under(self, settings: Settings) -> Callable[[int], PointItem]:
         """Return the function that gives the item of a raw number under these settings of other points."""
@@ -66,8 +70,7 @@ class PointFormatter:
 
     def _made_under(self, *values: int | Fraction | None) -> Callable[[int], PointItem]:
         settings = {name: value for name, value in zip(self.needs, values, strict=True) if value is not None}
-        most = 1 << self.point.width if self.point.width <= _FEW_BITS else _MOST_ITEMS
-        return lru_cache(most)(partial(PointItem, self, settings, self.meanings.under(settings)))
+        return partial(PointItem, self, settings, self.meanings.under(settings))
 
     def value(self, raw: int, settings: Settings) -> str:
         """Return the meaning of a raw number, and the number itself: `5 Hz (raw 500 = 01F4h)`."""
