@@ -133,7 +133,7 @@ FIELDSCRIBE_ONCE void fieldscribe_writes_to(
     }
 }
 
-#define FIELDSCRIBE_READ(frame, kind, raw_type)                                                  \
+#define FIELDSCRIBE_READ(frame, kind)                                                            \
     if (fieldscribe_asks(v, "read")) {                                                           \
         uint16_t word;                                                                           \
         if (fieldscribe_asks_for(v, 0U, &(frame).read, &word)) {                                 \
@@ -143,7 +143,7 @@ FIELDSCRIBE_ONCE void fieldscribe_writes_to(
         }                                                                                        \
     }
 
-#define FIELDSCRIBE_WRITE(frame, kind, raw_type)                                                 \
+#define FIELDSCRIBE_WRITE(frame, kind)                                                           \
     if (fieldscribe_asks(v, "write")) {                                                          \
         uint16_t word = 0x5A5AU;                                                                 \
         fieldscribe_put_field_##kind(v, (frame).layout, "raw", &word);                           \
@@ -151,7 +151,7 @@ FIELDSCRIBE_ONCE void fieldscribe_writes_to(
     }
 
 /* A group of bits: its word is read, and written back with other bits. */
-#define FIELDSCRIBE_WRITE_SHARED(frame, kind, raw_type)                                          \
+#define FIELDSCRIBE_WRITE_SHARED(frame, kind)                                                    \
     if (fieldscribe_asks(v, "write")) {                                                          \
         uint16_t word;                                                                           \
         if (fieldscribe_asks_for(v, 0U, &(frame).read, &word)) {                                 \
@@ -161,34 +161,36 @@ FIELDSCRIBE_ONCE void fieldscribe_writes_to(
     }
 
 /* Texts travel word by word; the script is in the order of the addresses. */
-#define FIELDSCRIBE_READ_TEXT(frame, function, macro)                                            \
+#define FIELDSCRIBE_READ_TEXT(point, macro)                                                      \
     if (fieldscribe_asks(v, "read")) {                                                           \
         fieldscribe_can_reading one = {0U};                                                      \
         uint16_t sorted[macro##_WORDS] = {0U};                                                   \
         size_t at;                                                                               \
         for (at = 0U; at < macro##_WORDS; ++at) {                                                \
-            const size_t rank = fieldscribe_rank(function##_addresses, macro##_WORDS, at);       \
-            fieldscribe_agree(v, fieldscribe_can_word_to_read(&(frame).read, at, &one) == FIELDSCRIBE_CAN_OK); \
+            const size_t rank = fieldscribe_rank(point##_addresses, macro##_WORDS, at);          \
+            fieldscribe_agree(v, fieldscribe_can_word_to_read(&point##_frame.read, at, &one) == FIELDSCRIBE_CAN_OK); \
             if (!fieldscribe_asks_for(v, rank, &one, &sorted[rank])) {                           \
                 sorted[rank] = 0U;                                                               \
             }                                                                                    \
         }                                                                                        \
-        fieldscribe_agree(v, fieldscribe_can_word_to_read(&(frame).read, at, &one) == FIELDSCRIBE_CAN_BAD_ADDRESS); \
+        fieldscribe_agree(v,                                                                     \
+            fieldscribe_can_word_to_read(&point##_frame.read, at, &one) == FIELDSCRIBE_CAN_BAD_ADDRESS); \
         fieldscribe_is_words(v, "words", sorted, macro##_WORDS);                                 \
     }
 
-#define FIELDSCRIBE_WRITE_TEXT(frame, function, macro)                                           \
+#define FIELDSCRIBE_WRITE_TEXT(point, macro)                                                     \
     if (fieldscribe_asks(v, "write")) {                                                          \
         fieldscribe_can_writing one = {0U};                                                      \
         uint16_t sorted[macro##_WORDS] = {0U};                                                   \
         size_t at;                                                                               \
         fieldscribe_agree(v, fieldscribe_numbers(v, "words", sorted, macro##_WORDS) == macro##_WORDS); \
         for (at = 0U; at < macro##_WORDS; ++at) {                                                \
-            const size_t rank = fieldscribe_rank(function##_addresses, macro##_WORDS, at);       \
-            fieldscribe_agree(v, fieldscribe_can_word_to_write(&(frame).write, at, &one) == FIELDSCRIBE_CAN_OK); \
+            const size_t rank = fieldscribe_rank(point##_addresses, macro##_WORDS, at);          \
+            fieldscribe_agree(v, fieldscribe_can_word_to_write(&point##_frame.write, at, &one) == FIELDSCRIBE_CAN_OK); \
             fieldscribe_writes_to(v, rank, &one, &sorted[rank]);                                 \
         }                                                                                        \
-        fieldscribe_agree(v, fieldscribe_can_word_to_write(&(frame).write, at, &one) == FIELDSCRIBE_CAN_BAD_ADDRESS); \
+        fieldscribe_agree(v,                                                                     \
+            fieldscribe_can_word_to_write(&point##_frame.write, at, &one) == FIELDSCRIBE_CAN_BAD_ADDRESS); \
     }
 
 /* The struct that the frames of the vector fill has the point's number, or the text in these words. */
@@ -241,7 +243,7 @@ FIELDSCRIBE_ONCE void fieldscribe_ages(fieldscribe_vector *v, const fieldscribe_
 }
 
 /* A point of a telegram, from the received frames. */
-#define FIELDSCRIBE_RECEIVED(frame, kind, raw_type)                                              \
+#define FIELDSCRIBE_RECEIVED(frame, kind)                                                        \
     if (fieldscribe_asks(v, "can_telegram")) {                                                   \
         uint16_t words[3];                                                                       \
         fieldscribe_can_status status;                                                           \
@@ -338,7 +340,7 @@ FIELDSCRIBE_ONCE void fieldscribe_puts_signals(fieldscribe_vector *v, uint16_t w
 }
 
 /* A signal of a message, extracted from a frame and inserted into one. */
-#define FIELDSCRIBE_SIGNAL(frame, kind, raw_type)                                                \
+#define FIELDSCRIBE_SIGNAL(frame, kind)                                                          \
     if (fieldscribe_asks(v, "can_signal")) {                                                     \
         uint16_t words[FIELDSCRIBE_SIGNAL_WORDS];                                                \
         const fieldscribe_can_status status = fieldscribe_takes_signals(v, (frame).heard.high, words); \
@@ -356,16 +358,16 @@ FIELDSCRIBE_ONCE void fieldscribe_puts_signals(fieldscribe_vector *v, uint16_t w
     }
 
 /* A text of a telegram: its words in reading order. */
-#define FIELDSCRIBE_RECEIVED_TEXT(frame, macro)                                                  \
+#define FIELDSCRIBE_RECEIVED_TEXT(point, macro)                                                  \
     if (fieldscribe_asks(v, "can_text")) {                                                       \
         uint16_t words[macro##_WORDS + 1U];                                                      \
         fieldscribe_can_status status;                                                           \
         fieldscribe_fill(words, sizeof words);                                                   \
         fieldscribe_agree(v, fieldscribe_can_received_text((const fieldscribe_can_receiver *)v->receiver, \
-            &(frame).heard, words, macro##_WORDS - 1U) == FIELDSCRIBE_CAN_BUFFER_TOO_SMALL);     \
+            &point##_frame.heard, words, macro##_WORDS - 1U) == FIELDSCRIBE_CAN_BUFFER_TOO_SMALL); \
         fieldscribe_untouched(v, words, sizeof words);                                           \
         status = fieldscribe_can_received_text(                                                  \
-            (const fieldscribe_can_receiver *)v->receiver, &(frame).heard, words, macro##_WORDS); \
+            (const fieldscribe_can_receiver *)v->receiver, &point##_frame.heard, words, macro##_WORDS); \
         fieldscribe_is_text(v, "status", fieldscribe_can_status_name(status));                   \
         fieldscribe_is_words(v, "words", words, status == FIELDSCRIBE_CAN_OK ? macro##_WORDS : 0U); \
         fieldscribe_untouched(v, words + macro##_WORDS, sizeof words[0]);                        \

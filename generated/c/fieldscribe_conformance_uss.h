@@ -147,7 +147,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_value(fieldscribe_vector *v, const fieldscr
     fieldscribe_untouched(v, untouched + what->width, sizeof untouched - what->width * sizeof untouched[0]);
 }
 
-#define FIELDSCRIBE_READ(frame, kind, raw_type)                                                  \
+#define FIELDSCRIBE_READ(frame, kind)                                                            \
     if (fieldscribe_asks(v, "read")) {                                                           \
         uint16_t words[256] = {0U};                                                              \
         uint16_t value[2] = {0U, 0U};                                                            \
@@ -160,7 +160,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_value(fieldscribe_vector *v, const fieldscr
         }                                                                                        \
     }
 
-#define FIELDSCRIBE_WRITE(what, frame, kind, raw_type)                                           \
+#define FIELDSCRIBE_WRITE(what, frame, kind)                                                     \
     if (fieldscribe_asks(v, what)) {                                                             \
         uint16_t words[256] = {0U};                                                              \
         uint16_t value[2] = {0U, 0U};                                                            \
@@ -177,7 +177,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_value(fieldscribe_vector *v, const fieldscr
     }
 
 /* A group of bits: its word is read, and written back with other bits. */
-#define FIELDSCRIBE_UPDATE(what, reading, frame, kind, raw_type)                                 \
+#define FIELDSCRIBE_UPDATE(what, reading, frame, kind)                                           \
     if (fieldscribe_asks(v, what)) {                                                             \
         uint16_t words[256] = {0U};                                                              \
         uint16_t value[2] = {0U, 0U};                                                            \
@@ -193,7 +193,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_value(fieldscribe_vector *v, const fieldscr
     }
 
 /* A word of process data that is sent or received without a task. */
-#define FIELDSCRIBE_SEND(frame, kind, raw_type)                                                  \
+#define FIELDSCRIBE_SEND(frame, kind)                                                            \
     if (fieldscribe_asks(v, "write")) {                                                          \
         uint16_t words[256] = {0U};                                                              \
         fieldscribe_uss_reply reply;                                                             \
@@ -204,7 +204,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_value(fieldscribe_vector *v, const fieldscr
     }
 
 /* The same without a telegram: one or two words at their place; the others are unchanged. */
-#define FIELDSCRIBE_PUT(frame, kind, raw_type, macro, count)                                     \
+#define FIELDSCRIBE_PUT(frame, kind, macro, count)                                               \
     if (fieldscribe_asks(v, "words") || fieldscribe_asks(v, "bits")) {                           \
         const bool part = fieldscribe_asks(v, "bits");                                           \
         uint16_t words[count];                                                                   \
@@ -224,7 +224,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_value(fieldscribe_vector *v, const fieldscr
         fieldscribe_untouched(v, words + macro##_ADDRESS + (frame).layout->words,                        \
             sizeof words - (macro##_ADDRESS + (frame).layout->words) * sizeof words[0]);                 \
     }
-#define FIELDSCRIBE_TAKE(frame, kind, raw_type, macro, count)                                    \
+#define FIELDSCRIBE_TAKE(frame, kind, macro, count)                                              \
     if (fieldscribe_asks(v, "words") || fieldscribe_asks(v, "bits")) {                           \
         uint16_t words[count];                                                                   \
         fieldscribe_fill(words, sizeof words);                                                   \
@@ -239,7 +239,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_value(fieldscribe_vector *v, const fieldscr
             fieldscribe_uss_words_heard(&(frame).heard, words, macro##_ADDRESS + (frame).layout->words)); \
     }
 
-#define FIELDSCRIBE_HEAR(frame, kind, raw_type)                                                  \
+#define FIELDSCRIBE_HEAR(frame, kind)                                                            \
     if (fieldscribe_asks(v, "read")) {                                                           \
         uint16_t words[256] = {0U};                                                              \
         fieldscribe_uss_reply reply;                                                             \

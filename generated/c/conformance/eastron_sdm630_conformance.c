@@ -11,1081 +11,1057 @@
 
 static void point_phase_1_voltage(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_VOLTAGE, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_1_VOLTAGE) FIELDSCRIBE_REFERENCE("reference", 30001))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_VOLTAGE, "input", EASTRON_SDM630_PHASE_1_VOLTAGE_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30001))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_1_voltage_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_1_voltage, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_1_voltage_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_1_voltage_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_1_voltage_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_1_voltage_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_1_voltage, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_2_voltage(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_VOLTAGE, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_2_VOLTAGE) FIELDSCRIBE_REFERENCE("reference", 30003))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_VOLTAGE, "input", EASTRON_SDM630_PHASE_2_VOLTAGE_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30003))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_2_voltage_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_2_voltage, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_2_voltage_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_2_voltage_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_2_voltage_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_2_voltage_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_2_voltage, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_3_voltage(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_VOLTAGE, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_3_VOLTAGE) FIELDSCRIBE_REFERENCE("reference", 30005))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_VOLTAGE, "input", EASTRON_SDM630_PHASE_3_VOLTAGE_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30005))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_3_voltage_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_3_voltage, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_3_voltage_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_3_voltage_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_3_voltage_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_3_voltage_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_3_voltage, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_1_current(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_CURRENT, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_1_CURRENT) FIELDSCRIBE_REFERENCE("reference", 30007))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_CURRENT, "input", EASTRON_SDM630_PHASE_1_CURRENT_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30007))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_1_current_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_1_current, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_1_current_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_1_current_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_1_current_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_1_current_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_1_current, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_2_current(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_CURRENT, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_2_CURRENT) FIELDSCRIBE_REFERENCE("reference", 30009))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_CURRENT, "input", EASTRON_SDM630_PHASE_2_CURRENT_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30009))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_2_current_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_2_current, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_2_current_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_2_current_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_2_current_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_2_current_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_2_current, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_3_current(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_CURRENT, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_3_CURRENT) FIELDSCRIBE_REFERENCE("reference", 30011))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_CURRENT, "input", EASTRON_SDM630_PHASE_3_CURRENT_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30011))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_3_current_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_3_current, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_3_current_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_3_current_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_3_current_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_3_current_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_3_current, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_1_active_power(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_ACTIVE_POWER, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_1_ACTIVE_POWER) FIELDSCRIBE_REFERENCE("reference", 30013))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_ACTIVE_POWER, "input", EASTRON_SDM630_PHASE_1_ACTIVE_POWER_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30013))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_1_active_power_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_1_active_power, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_1_active_power_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_1_active_power_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_1_active_power_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_1_active_power_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_1_active_power, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_2_active_power(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_ACTIVE_POWER, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_2_ACTIVE_POWER) FIELDSCRIBE_REFERENCE("reference", 30015))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_ACTIVE_POWER, "input", EASTRON_SDM630_PHASE_2_ACTIVE_POWER_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30015))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_2_active_power_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_2_active_power, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_2_active_power_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_2_active_power_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_2_active_power_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_2_active_power_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_2_active_power, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_3_active_power(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_ACTIVE_POWER, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_3_ACTIVE_POWER) FIELDSCRIBE_REFERENCE("reference", 30017))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_ACTIVE_POWER, "input", EASTRON_SDM630_PHASE_3_ACTIVE_POWER_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30017))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_3_active_power_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_3_active_power, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_3_active_power_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_3_active_power_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_3_active_power_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_3_active_power_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_3_active_power, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_1_apparent_power(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_APPARENT_POWER, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_1_APPARENT_POWER) FIELDSCRIBE_REFERENCE("reference", 30019))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_APPARENT_POWER, "input", EASTRON_SDM630_PHASE_1_APPARENT_POWER_WORDS,
+        NULL, FIELDSCRIBE_REFERENCE("reference", 30019))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_1_apparent_power_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_1_apparent_power, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_1_apparent_power_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_1_apparent_power_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_1_apparent_power_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_1_apparent_power_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_1_apparent_power, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_2_apparent_power(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_APPARENT_POWER, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_2_APPARENT_POWER) FIELDSCRIBE_REFERENCE("reference", 30021))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_APPARENT_POWER, "input", EASTRON_SDM630_PHASE_2_APPARENT_POWER_WORDS,
+        NULL, FIELDSCRIBE_REFERENCE("reference", 30021))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_2_apparent_power_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_2_apparent_power, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_2_apparent_power_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_2_apparent_power_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_2_apparent_power_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_2_apparent_power_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_2_apparent_power, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_3_apparent_power(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_APPARENT_POWER, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_3_APPARENT_POWER) FIELDSCRIBE_REFERENCE("reference", 30023))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_APPARENT_POWER, "input", EASTRON_SDM630_PHASE_3_APPARENT_POWER_WORDS,
+        NULL, FIELDSCRIBE_REFERENCE("reference", 30023))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_3_apparent_power_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_3_apparent_power, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_3_apparent_power_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_3_apparent_power_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_3_apparent_power_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_3_apparent_power_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_3_apparent_power, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_1_reactive_power(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_REACTIVE_POWER, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_1_REACTIVE_POWER) FIELDSCRIBE_REFERENCE("reference", 30025))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_REACTIVE_POWER, "input", EASTRON_SDM630_PHASE_1_REACTIVE_POWER_WORDS,
+        NULL, FIELDSCRIBE_REFERENCE("reference", 30025))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_1_reactive_power_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_1_reactive_power, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_1_reactive_power_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_1_reactive_power_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_1_reactive_power_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_1_reactive_power_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_1_reactive_power, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_2_reactive_power(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_REACTIVE_POWER, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_2_REACTIVE_POWER) FIELDSCRIBE_REFERENCE("reference", 30027))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_REACTIVE_POWER, "input", EASTRON_SDM630_PHASE_2_REACTIVE_POWER_WORDS,
+        NULL, FIELDSCRIBE_REFERENCE("reference", 30027))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_2_reactive_power_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_2_reactive_power, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_2_reactive_power_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_2_reactive_power_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_2_reactive_power_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_2_reactive_power_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_2_reactive_power, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_3_reactive_power(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_REACTIVE_POWER, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_3_REACTIVE_POWER) FIELDSCRIBE_REFERENCE("reference", 30029))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_REACTIVE_POWER, "input", EASTRON_SDM630_PHASE_3_REACTIVE_POWER_WORDS,
+        NULL, FIELDSCRIBE_REFERENCE("reference", 30029))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_3_reactive_power_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_3_reactive_power, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_3_reactive_power_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_3_reactive_power_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_3_reactive_power_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_3_reactive_power_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_3_reactive_power, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_1_power_factor(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_POWER_FACTOR, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_1_POWER_FACTOR) FIELDSCRIBE_REFERENCE("reference", 30031))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_POWER_FACTOR, "input", EASTRON_SDM630_PHASE_1_POWER_FACTOR_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30031))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_1_power_factor_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_1_power_factor, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_1_power_factor_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_1_power_factor_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_1_power_factor_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_1_power_factor_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_1_power_factor, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_2_power_factor(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_POWER_FACTOR, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_2_POWER_FACTOR) FIELDSCRIBE_REFERENCE("reference", 30033))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_POWER_FACTOR, "input", EASTRON_SDM630_PHASE_2_POWER_FACTOR_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30033))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_2_power_factor_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_2_power_factor, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_2_power_factor_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_2_power_factor_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_2_power_factor_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_2_power_factor_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_2_power_factor, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_3_power_factor(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_POWER_FACTOR, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_3_POWER_FACTOR) FIELDSCRIBE_REFERENCE("reference", 30035))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_POWER_FACTOR, "input", EASTRON_SDM630_PHASE_3_POWER_FACTOR_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30035))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_3_power_factor_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_3_power_factor, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_3_power_factor_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_3_power_factor_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_3_power_factor_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_3_power_factor_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_3_power_factor, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_1_phase_angle(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_PHASE_ANGLE, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_1_PHASE_ANGLE) FIELDSCRIBE_REFERENCE("reference", 30037))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_PHASE_ANGLE, "input", EASTRON_SDM630_PHASE_1_PHASE_ANGLE_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30037))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_1_phase_angle_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_1_phase_angle, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_1_phase_angle_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_1_phase_angle_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_1_phase_angle_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_1_phase_angle_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_1_phase_angle, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_2_phase_angle(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_PHASE_ANGLE, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_2_PHASE_ANGLE) FIELDSCRIBE_REFERENCE("reference", 30039))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_PHASE_ANGLE, "input", EASTRON_SDM630_PHASE_2_PHASE_ANGLE_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30039))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_2_phase_angle_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_2_phase_angle, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_2_phase_angle_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_2_phase_angle_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_2_phase_angle_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_2_phase_angle_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_2_phase_angle, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_3_phase_angle(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_PHASE_ANGLE, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_3_PHASE_ANGLE) FIELDSCRIBE_REFERENCE("reference", 30041))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_PHASE_ANGLE, "input", EASTRON_SDM630_PHASE_3_PHASE_ANGLE_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30041))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_3_phase_angle_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_3_phase_angle, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_3_phase_angle_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_3_phase_angle_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_3_phase_angle_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_3_phase_angle_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_3_phase_angle, uint32_t, uint32_t, RAW)
 }
 
 static void point_average_voltage(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_AVERAGE_VOLTAGE, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_AVERAGE_VOLTAGE) FIELDSCRIBE_REFERENCE("reference", 30043))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_AVERAGE_VOLTAGE, "input", EASTRON_SDM630_AVERAGE_VOLTAGE_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30043))
     FIELDSCRIBE_DECODE(eastron_sdm630_average_voltage_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_average_voltage, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_average_voltage_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_average_voltage_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_average_voltage_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_average_voltage_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, average_voltage, uint32_t, uint32_t, RAW)
 }
 
 static void point_average_current(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_AVERAGE_CURRENT, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_AVERAGE_CURRENT) FIELDSCRIBE_REFERENCE("reference", 30047))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_AVERAGE_CURRENT, "input", EASTRON_SDM630_AVERAGE_CURRENT_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30047))
     FIELDSCRIBE_DECODE(eastron_sdm630_average_current_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_average_current, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_average_current_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_average_current_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_average_current_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_average_current_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, average_current, uint32_t, uint32_t, RAW)
 }
 
 static void point_sum_of_currents(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_SUM_OF_CURRENTS, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_SUM_OF_CURRENTS) FIELDSCRIBE_REFERENCE("reference", 30049))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_SUM_OF_CURRENTS, "input", EASTRON_SDM630_SUM_OF_CURRENTS_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30049))
     FIELDSCRIBE_DECODE(eastron_sdm630_sum_of_currents_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_sum_of_currents, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_sum_of_currents_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_sum_of_currents_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_sum_of_currents_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_sum_of_currents_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, sum_of_currents, uint32_t, uint32_t, RAW)
 }
 
 static void point_total_active_power(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_TOTAL_ACTIVE_POWER, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_TOTAL_ACTIVE_POWER) FIELDSCRIBE_REFERENCE("reference", 30053))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_TOTAL_ACTIVE_POWER, "input", EASTRON_SDM630_TOTAL_ACTIVE_POWER_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30053))
     FIELDSCRIBE_DECODE(eastron_sdm630_total_active_power_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_total_active_power, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_total_active_power_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_total_active_power_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_total_active_power_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_total_active_power_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, total_active_power, uint32_t, uint32_t, RAW)
 }
 
 static void point_total_apparent_power(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_TOTAL_APPARENT_POWER, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_TOTAL_APPARENT_POWER) FIELDSCRIBE_REFERENCE("reference", 30057))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_TOTAL_APPARENT_POWER, "input", EASTRON_SDM630_TOTAL_APPARENT_POWER_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30057))
     FIELDSCRIBE_DECODE(eastron_sdm630_total_apparent_power_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_total_apparent_power, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_total_apparent_power_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_total_apparent_power_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_total_apparent_power_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_total_apparent_power_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, total_apparent_power, uint32_t, uint32_t, RAW)
 }
 
 static void point_total_reactive_power(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_TOTAL_REACTIVE_POWER, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_TOTAL_REACTIVE_POWER) FIELDSCRIBE_REFERENCE("reference", 30061))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_TOTAL_REACTIVE_POWER, "input", EASTRON_SDM630_TOTAL_REACTIVE_POWER_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30061))
     FIELDSCRIBE_DECODE(eastron_sdm630_total_reactive_power_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_total_reactive_power, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_total_reactive_power_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_total_reactive_power_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_total_reactive_power_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_total_reactive_power_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, total_reactive_power, uint32_t, uint32_t, RAW)
 }
 
 static void point_total_power_factor(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_TOTAL_POWER_FACTOR, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_TOTAL_POWER_FACTOR) FIELDSCRIBE_REFERENCE("reference", 30063))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_TOTAL_POWER_FACTOR, "input", EASTRON_SDM630_TOTAL_POWER_FACTOR_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30063))
     FIELDSCRIBE_DECODE(eastron_sdm630_total_power_factor_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_total_power_factor, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_total_power_factor_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_total_power_factor_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_total_power_factor_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_total_power_factor_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, total_power_factor, uint32_t, uint32_t, RAW)
 }
 
 static void point_total_phase_angle(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_TOTAL_PHASE_ANGLE, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_TOTAL_PHASE_ANGLE) FIELDSCRIBE_REFERENCE("reference", 30067))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_TOTAL_PHASE_ANGLE, "input", EASTRON_SDM630_TOTAL_PHASE_ANGLE_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30067))
     FIELDSCRIBE_DECODE(eastron_sdm630_total_phase_angle_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_total_phase_angle, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_total_phase_angle_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_total_phase_angle_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_total_phase_angle_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_total_phase_angle_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, total_phase_angle, uint32_t, uint32_t, RAW)
 }
 
 static void point_frequency(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_FREQUENCY, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_FREQUENCY) FIELDSCRIBE_REFERENCE("reference", 30071))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_FREQUENCY, "input", EASTRON_SDM630_FREQUENCY_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30071))
     FIELDSCRIBE_DECODE(eastron_sdm630_frequency_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_frequency, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_frequency_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_frequency_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_frequency_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_frequency_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, frequency, uint32_t, uint32_t, RAW)
 }
 
 static void point_import_active_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_IMPORT_ACTIVE_ENERGY, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_IMPORT_ACTIVE_ENERGY) FIELDSCRIBE_REFERENCE("reference", 30073))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_IMPORT_ACTIVE_ENERGY, "input", EASTRON_SDM630_IMPORT_ACTIVE_ENERGY_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30073))
     FIELDSCRIBE_DECODE(eastron_sdm630_import_active_energy_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_import_active_energy, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_import_active_energy_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_import_active_energy_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_import_active_energy_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_import_active_energy_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, import_active_energy, uint32_t, uint32_t, RAW)
 }
 
 static void point_export_active_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_EXPORT_ACTIVE_ENERGY, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_EXPORT_ACTIVE_ENERGY) FIELDSCRIBE_REFERENCE("reference", 30075))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_EXPORT_ACTIVE_ENERGY, "input", EASTRON_SDM630_EXPORT_ACTIVE_ENERGY_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30075))
     FIELDSCRIBE_DECODE(eastron_sdm630_export_active_energy_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_export_active_energy, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_export_active_energy_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_export_active_energy_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_export_active_energy_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_export_active_energy_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, export_active_energy, uint32_t, uint32_t, RAW)
 }
 
 static void point_import_reactive_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_IMPORT_REACTIVE_ENERGY, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_IMPORT_REACTIVE_ENERGY) FIELDSCRIBE_REFERENCE("reference", 30077))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_IMPORT_REACTIVE_ENERGY, "input", EASTRON_SDM630_IMPORT_REACTIVE_ENERGY_WORDS,
+        NULL, FIELDSCRIBE_REFERENCE("reference", 30077))
     FIELDSCRIBE_DECODE(eastron_sdm630_import_reactive_energy_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_import_reactive_energy, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_import_reactive_energy_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_import_reactive_energy_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_import_reactive_energy_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_import_reactive_energy_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, import_reactive_energy, uint32_t, uint32_t, RAW)
 }
 
 static void point_export_reactive_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_EXPORT_REACTIVE_ENERGY, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_EXPORT_REACTIVE_ENERGY) FIELDSCRIBE_REFERENCE("reference", 30079))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_EXPORT_REACTIVE_ENERGY, "input", EASTRON_SDM630_EXPORT_REACTIVE_ENERGY_WORDS,
+        NULL, FIELDSCRIBE_REFERENCE("reference", 30079))
     FIELDSCRIBE_DECODE(eastron_sdm630_export_reactive_energy_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_export_reactive_energy, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_export_reactive_energy_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_export_reactive_energy_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_export_reactive_energy_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_export_reactive_energy_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, export_reactive_energy, uint32_t, uint32_t, RAW)
 }
 
 static void point_apparent_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_APPARENT_ENERGY, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_APPARENT_ENERGY) FIELDSCRIBE_REFERENCE("reference", 30081))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_APPARENT_ENERGY, "input", EASTRON_SDM630_APPARENT_ENERGY_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30081))
     FIELDSCRIBE_DECODE(eastron_sdm630_apparent_energy_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_apparent_energy, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_apparent_energy_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_apparent_energy_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_apparent_energy_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_apparent_energy_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, apparent_energy, uint32_t, uint32_t, RAW)
 }
 
 static void point_charge(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_CHARGE, FIELDSCRIBE_SPACE("input") FIELDSCRIBE_SEVERAL(EASTRON_SDM630_CHARGE)
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_CHARGE, "input", EASTRON_SDM630_CHARGE_WORDS, NULL,
         FIELDSCRIBE_REFERENCE("reference", 30083))
     FIELDSCRIBE_DECODE(eastron_sdm630_charge_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_charge, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_charge_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_charge_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_charge_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_charge_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, charge, uint32_t, uint32_t, RAW)
 }
 
 static void point_total_active_power_demand(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_TOTAL_ACTIVE_POWER_DEMAND, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_TOTAL_ACTIVE_POWER_DEMAND) FIELDSCRIBE_REFERENCE("reference", 30085))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_TOTAL_ACTIVE_POWER_DEMAND, "input",
+        EASTRON_SDM630_TOTAL_ACTIVE_POWER_DEMAND_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30085))
     FIELDSCRIBE_DECODE(eastron_sdm630_total_active_power_demand_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_total_active_power_demand, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_total_active_power_demand_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_total_active_power_demand_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_total_active_power_demand_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_total_active_power_demand_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, total_active_power_demand, uint32_t, uint32_t, RAW)
 }
 
 static void point_maximum_total_active_power_demand(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_MAXIMUM_TOTAL_ACTIVE_POWER_DEMAND, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_MAXIMUM_TOTAL_ACTIVE_POWER_DEMAND) FIELDSCRIBE_REFERENCE("reference", 30087))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_MAXIMUM_TOTAL_ACTIVE_POWER_DEMAND, "input",
+        EASTRON_SDM630_MAXIMUM_TOTAL_ACTIVE_POWER_DEMAND_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30087))
     FIELDSCRIBE_DECODE(eastron_sdm630_maximum_total_active_power_demand_decode, fieldscribe_real, uint32_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_maximum_total_active_power_demand, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_maximum_total_active_power_demand_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_maximum_total_active_power_demand_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_maximum_total_active_power_demand_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_maximum_total_active_power_demand_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, maximum_total_active_power_demand, uint32_t, uint32_t, RAW)
 }
 
 static void point_total_apparent_power_demand(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_TOTAL_APPARENT_POWER_DEMAND, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_TOTAL_APPARENT_POWER_DEMAND) FIELDSCRIBE_REFERENCE("reference", 30101))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_TOTAL_APPARENT_POWER_DEMAND, "input",
+        EASTRON_SDM630_TOTAL_APPARENT_POWER_DEMAND_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30101))
     FIELDSCRIBE_DECODE(eastron_sdm630_total_apparent_power_demand_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_total_apparent_power_demand, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_total_apparent_power_demand_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_total_apparent_power_demand_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_total_apparent_power_demand_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_total_apparent_power_demand_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, total_apparent_power_demand, uint32_t, uint32_t, RAW)
 }
 
 static void point_maximum_total_apparent_power_demand(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_MAXIMUM_TOTAL_APPARENT_POWER_DEMAND, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_MAXIMUM_TOTAL_APPARENT_POWER_DEMAND) FIELDSCRIBE_REFERENCE("reference",
-        30103))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_MAXIMUM_TOTAL_APPARENT_POWER_DEMAND, "input",
+        EASTRON_SDM630_MAXIMUM_TOTAL_APPARENT_POWER_DEMAND_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30103))
     FIELDSCRIBE_DECODE(eastron_sdm630_maximum_total_apparent_power_demand_decode, fieldscribe_real, uint32_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_maximum_total_apparent_power_demand, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_maximum_total_apparent_power_demand_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_maximum_total_apparent_power_demand_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_maximum_total_apparent_power_demand_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_maximum_total_apparent_power_demand_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, maximum_total_apparent_power_demand, uint32_t, uint32_t, RAW)
 }
 
 static void point_neutral_current_demand(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_NEUTRAL_CURRENT_DEMAND, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_NEUTRAL_CURRENT_DEMAND) FIELDSCRIBE_REFERENCE("reference", 30105))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_NEUTRAL_CURRENT_DEMAND, "input", EASTRON_SDM630_NEUTRAL_CURRENT_DEMAND_WORDS,
+        NULL, FIELDSCRIBE_REFERENCE("reference", 30105))
     FIELDSCRIBE_DECODE(eastron_sdm630_neutral_current_demand_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_neutral_current_demand, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_neutral_current_demand_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_neutral_current_demand_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_neutral_current_demand_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_neutral_current_demand_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, neutral_current_demand, uint32_t, uint32_t, RAW)
 }
 
 static void point_maximum_neutral_current_demand(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_MAXIMUM_NEUTRAL_CURRENT_DEMAND, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_MAXIMUM_NEUTRAL_CURRENT_DEMAND) FIELDSCRIBE_REFERENCE("reference", 30107))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_MAXIMUM_NEUTRAL_CURRENT_DEMAND, "input",
+        EASTRON_SDM630_MAXIMUM_NEUTRAL_CURRENT_DEMAND_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30107))
     FIELDSCRIBE_DECODE(eastron_sdm630_maximum_neutral_current_demand_decode, fieldscribe_real, uint32_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_maximum_neutral_current_demand, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_maximum_neutral_current_demand_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_maximum_neutral_current_demand_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_maximum_neutral_current_demand_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_maximum_neutral_current_demand_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, maximum_neutral_current_demand, uint32_t, uint32_t, RAW)
 }
 
 static void point_line_1_to_2_voltage(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_LINE_1_TO_2_VOLTAGE, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_LINE_1_TO_2_VOLTAGE) FIELDSCRIBE_REFERENCE("reference", 30201))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_LINE_1_TO_2_VOLTAGE, "input", EASTRON_SDM630_LINE_1_TO_2_VOLTAGE_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30201))
     FIELDSCRIBE_DECODE(eastron_sdm630_line_1_to_2_voltage_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_line_1_to_2_voltage, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_line_1_to_2_voltage_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_line_1_to_2_voltage_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_line_1_to_2_voltage_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_line_1_to_2_voltage_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, line_1_to_2_voltage, uint32_t, uint32_t, RAW)
 }
 
 static void point_line_2_to_3_voltage(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_LINE_2_TO_3_VOLTAGE, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_LINE_2_TO_3_VOLTAGE) FIELDSCRIBE_REFERENCE("reference", 30203))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_LINE_2_TO_3_VOLTAGE, "input", EASTRON_SDM630_LINE_2_TO_3_VOLTAGE_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30203))
     FIELDSCRIBE_DECODE(eastron_sdm630_line_2_to_3_voltage_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_line_2_to_3_voltage, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_line_2_to_3_voltage_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_line_2_to_3_voltage_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_line_2_to_3_voltage_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_line_2_to_3_voltage_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, line_2_to_3_voltage, uint32_t, uint32_t, RAW)
 }
 
 static void point_line_3_to_1_voltage(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_LINE_3_TO_1_VOLTAGE, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_LINE_3_TO_1_VOLTAGE) FIELDSCRIBE_REFERENCE("reference", 30205))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_LINE_3_TO_1_VOLTAGE, "input", EASTRON_SDM630_LINE_3_TO_1_VOLTAGE_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30205))
     FIELDSCRIBE_DECODE(eastron_sdm630_line_3_to_1_voltage_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_line_3_to_1_voltage, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_line_3_to_1_voltage_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_line_3_to_1_voltage_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_line_3_to_1_voltage_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_line_3_to_1_voltage_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, line_3_to_1_voltage, uint32_t, uint32_t, RAW)
 }
 
 static void point_average_line_to_line_voltage(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_AVERAGE_LINE_TO_LINE_VOLTAGE, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_AVERAGE_LINE_TO_LINE_VOLTAGE) FIELDSCRIBE_REFERENCE("reference", 30207))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_AVERAGE_LINE_TO_LINE_VOLTAGE, "input",
+        EASTRON_SDM630_AVERAGE_LINE_TO_LINE_VOLTAGE_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30207))
     FIELDSCRIBE_DECODE(eastron_sdm630_average_line_to_line_voltage_decode, fieldscribe_real, uint32_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_average_line_to_line_voltage, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_average_line_to_line_voltage_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_average_line_to_line_voltage_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_average_line_to_line_voltage_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_average_line_to_line_voltage_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, average_line_to_line_voltage, uint32_t, uint32_t, RAW)
 }
 
 static void point_neutral_current(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_NEUTRAL_CURRENT, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_NEUTRAL_CURRENT) FIELDSCRIBE_REFERENCE("reference", 30225))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_NEUTRAL_CURRENT, "input", EASTRON_SDM630_NEUTRAL_CURRENT_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30225))
     FIELDSCRIBE_DECODE(eastron_sdm630_neutral_current_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_neutral_current, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_neutral_current_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_neutral_current_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_neutral_current_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_neutral_current_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, neutral_current, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_1_voltage_thd(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_VOLTAGE_THD, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_1_VOLTAGE_THD) FIELDSCRIBE_REFERENCE("reference", 30235))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_VOLTAGE_THD, "input", EASTRON_SDM630_PHASE_1_VOLTAGE_THD_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30235))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_1_voltage_thd_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_1_voltage_thd, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_1_voltage_thd_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_1_voltage_thd_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_1_voltage_thd_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_1_voltage_thd_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_1_voltage_thd, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_2_voltage_thd(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_VOLTAGE_THD, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_2_VOLTAGE_THD) FIELDSCRIBE_REFERENCE("reference", 30237))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_VOLTAGE_THD, "input", EASTRON_SDM630_PHASE_2_VOLTAGE_THD_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30237))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_2_voltage_thd_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_2_voltage_thd, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_2_voltage_thd_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_2_voltage_thd_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_2_voltage_thd_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_2_voltage_thd_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_2_voltage_thd, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_3_voltage_thd(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_VOLTAGE_THD, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_3_VOLTAGE_THD) FIELDSCRIBE_REFERENCE("reference", 30239))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_VOLTAGE_THD, "input", EASTRON_SDM630_PHASE_3_VOLTAGE_THD_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30239))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_3_voltage_thd_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_3_voltage_thd, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_3_voltage_thd_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_3_voltage_thd_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_3_voltage_thd_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_3_voltage_thd_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_3_voltage_thd, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_1_current_thd(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_CURRENT_THD, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_1_CURRENT_THD) FIELDSCRIBE_REFERENCE("reference", 30241))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_CURRENT_THD, "input", EASTRON_SDM630_PHASE_1_CURRENT_THD_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30241))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_1_current_thd_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_1_current_thd, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_1_current_thd_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_1_current_thd_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_1_current_thd_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_1_current_thd_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_1_current_thd, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_2_current_thd(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_CURRENT_THD, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_2_CURRENT_THD) FIELDSCRIBE_REFERENCE("reference", 30243))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_CURRENT_THD, "input", EASTRON_SDM630_PHASE_2_CURRENT_THD_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30243))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_2_current_thd_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_2_current_thd, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_2_current_thd_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_2_current_thd_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_2_current_thd_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_2_current_thd_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_2_current_thd, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_3_current_thd(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_CURRENT_THD, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_3_CURRENT_THD) FIELDSCRIBE_REFERENCE("reference", 30245))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_CURRENT_THD, "input", EASTRON_SDM630_PHASE_3_CURRENT_THD_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30245))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_3_current_thd_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_3_current_thd, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_3_current_thd_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_3_current_thd_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_3_current_thd_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_3_current_thd_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_3_current_thd, uint32_t, uint32_t, RAW)
 }
 
 static void point_average_voltage_thd(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_AVERAGE_VOLTAGE_THD, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_AVERAGE_VOLTAGE_THD) FIELDSCRIBE_REFERENCE("reference", 30249))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_AVERAGE_VOLTAGE_THD, "input", EASTRON_SDM630_AVERAGE_VOLTAGE_THD_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30249))
     FIELDSCRIBE_DECODE(eastron_sdm630_average_voltage_thd_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_average_voltage_thd, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_average_voltage_thd_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_average_voltage_thd_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_average_voltage_thd_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_average_voltage_thd_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, average_voltage_thd, uint32_t, uint32_t, RAW)
 }
 
 static void point_average_current_thd(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_AVERAGE_CURRENT_THD, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_AVERAGE_CURRENT_THD) FIELDSCRIBE_REFERENCE("reference", 30251))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_AVERAGE_CURRENT_THD, "input", EASTRON_SDM630_AVERAGE_CURRENT_THD_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30251))
     FIELDSCRIBE_DECODE(eastron_sdm630_average_current_thd_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_average_current_thd, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_average_current_thd_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_average_current_thd_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_average_current_thd_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_average_current_thd_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, average_current_thd, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_1_current_demand(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_CURRENT_DEMAND, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_1_CURRENT_DEMAND) FIELDSCRIBE_REFERENCE("reference", 30259))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_CURRENT_DEMAND, "input", EASTRON_SDM630_PHASE_1_CURRENT_DEMAND_WORDS,
+        NULL, FIELDSCRIBE_REFERENCE("reference", 30259))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_1_current_demand_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_1_current_demand, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_1_current_demand_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_1_current_demand_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_1_current_demand_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_1_current_demand_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_1_current_demand, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_2_current_demand(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_CURRENT_DEMAND, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_2_CURRENT_DEMAND) FIELDSCRIBE_REFERENCE("reference", 30261))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_CURRENT_DEMAND, "input", EASTRON_SDM630_PHASE_2_CURRENT_DEMAND_WORDS,
+        NULL, FIELDSCRIBE_REFERENCE("reference", 30261))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_2_current_demand_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_2_current_demand, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_2_current_demand_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_2_current_demand_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_2_current_demand_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_2_current_demand_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_2_current_demand, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_3_current_demand(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_CURRENT_DEMAND, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_3_CURRENT_DEMAND) FIELDSCRIBE_REFERENCE("reference", 30263))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_CURRENT_DEMAND, "input", EASTRON_SDM630_PHASE_3_CURRENT_DEMAND_WORDS,
+        NULL, FIELDSCRIBE_REFERENCE("reference", 30263))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_3_current_demand_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_3_current_demand, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_3_current_demand_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_3_current_demand_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_3_current_demand_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_3_current_demand_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_3_current_demand, uint32_t, uint32_t, RAW)
 }
 
 static void point_maximum_phase_1_current_demand(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_MAXIMUM_PHASE_1_CURRENT_DEMAND, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_MAXIMUM_PHASE_1_CURRENT_DEMAND) FIELDSCRIBE_REFERENCE("reference", 30265))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_MAXIMUM_PHASE_1_CURRENT_DEMAND, "input",
+        EASTRON_SDM630_MAXIMUM_PHASE_1_CURRENT_DEMAND_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30265))
     FIELDSCRIBE_DECODE(eastron_sdm630_maximum_phase_1_current_demand_decode, fieldscribe_real, uint32_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_maximum_phase_1_current_demand, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_maximum_phase_1_current_demand_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_maximum_phase_1_current_demand_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_maximum_phase_1_current_demand_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_maximum_phase_1_current_demand_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, maximum_phase_1_current_demand, uint32_t, uint32_t, RAW)
 }
 
 static void point_maximum_phase_2_current_demand(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_MAXIMUM_PHASE_2_CURRENT_DEMAND, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_MAXIMUM_PHASE_2_CURRENT_DEMAND) FIELDSCRIBE_REFERENCE("reference", 30267))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_MAXIMUM_PHASE_2_CURRENT_DEMAND, "input",
+        EASTRON_SDM630_MAXIMUM_PHASE_2_CURRENT_DEMAND_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30267))
     FIELDSCRIBE_DECODE(eastron_sdm630_maximum_phase_2_current_demand_decode, fieldscribe_real, uint32_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_maximum_phase_2_current_demand, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_maximum_phase_2_current_demand_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_maximum_phase_2_current_demand_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_maximum_phase_2_current_demand_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_maximum_phase_2_current_demand_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, maximum_phase_2_current_demand, uint32_t, uint32_t, RAW)
 }
 
 static void point_maximum_phase_3_current_demand(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_MAXIMUM_PHASE_3_CURRENT_DEMAND, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_MAXIMUM_PHASE_3_CURRENT_DEMAND) FIELDSCRIBE_REFERENCE("reference", 30269))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_MAXIMUM_PHASE_3_CURRENT_DEMAND, "input",
+        EASTRON_SDM630_MAXIMUM_PHASE_3_CURRENT_DEMAND_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30269))
     FIELDSCRIBE_DECODE(eastron_sdm630_maximum_phase_3_current_demand_decode, fieldscribe_real, uint32_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_maximum_phase_3_current_demand, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_maximum_phase_3_current_demand_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_maximum_phase_3_current_demand_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_maximum_phase_3_current_demand_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_maximum_phase_3_current_demand_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, maximum_phase_3_current_demand, uint32_t, uint32_t, RAW)
 }
 
 static void point_line_1_to_2_voltage_thd(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_LINE_1_TO_2_VOLTAGE_THD, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_LINE_1_TO_2_VOLTAGE_THD) FIELDSCRIBE_REFERENCE("reference", 30335))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_LINE_1_TO_2_VOLTAGE_THD, "input", EASTRON_SDM630_LINE_1_TO_2_VOLTAGE_THD_WORDS,
+        NULL, FIELDSCRIBE_REFERENCE("reference", 30335))
     FIELDSCRIBE_DECODE(eastron_sdm630_line_1_to_2_voltage_thd_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_line_1_to_2_voltage_thd, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_line_1_to_2_voltage_thd_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_line_1_to_2_voltage_thd_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_line_1_to_2_voltage_thd_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_line_1_to_2_voltage_thd_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, line_1_to_2_voltage_thd, uint32_t, uint32_t, RAW)
 }
 
 static void point_line_2_to_3_voltage_thd(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_LINE_2_TO_3_VOLTAGE_THD, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_LINE_2_TO_3_VOLTAGE_THD) FIELDSCRIBE_REFERENCE("reference", 30337))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_LINE_2_TO_3_VOLTAGE_THD, "input", EASTRON_SDM630_LINE_2_TO_3_VOLTAGE_THD_WORDS,
+        NULL, FIELDSCRIBE_REFERENCE("reference", 30337))
     FIELDSCRIBE_DECODE(eastron_sdm630_line_2_to_3_voltage_thd_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_line_2_to_3_voltage_thd, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_line_2_to_3_voltage_thd_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_line_2_to_3_voltage_thd_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_line_2_to_3_voltage_thd_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_line_2_to_3_voltage_thd_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, line_2_to_3_voltage_thd, uint32_t, uint32_t, RAW)
 }
 
 static void point_line_3_to_1_voltage_thd(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_LINE_3_TO_1_VOLTAGE_THD, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_LINE_3_TO_1_VOLTAGE_THD) FIELDSCRIBE_REFERENCE("reference", 30339))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_LINE_3_TO_1_VOLTAGE_THD, "input", EASTRON_SDM630_LINE_3_TO_1_VOLTAGE_THD_WORDS,
+        NULL, FIELDSCRIBE_REFERENCE("reference", 30339))
     FIELDSCRIBE_DECODE(eastron_sdm630_line_3_to_1_voltage_thd_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_line_3_to_1_voltage_thd, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_line_3_to_1_voltage_thd_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_line_3_to_1_voltage_thd_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_line_3_to_1_voltage_thd_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_line_3_to_1_voltage_thd_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, line_3_to_1_voltage_thd, uint32_t, uint32_t, RAW)
 }
 
 static void point_average_line_to_line_voltage_thd(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_AVERAGE_LINE_TO_LINE_VOLTAGE_THD, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_AVERAGE_LINE_TO_LINE_VOLTAGE_THD) FIELDSCRIBE_REFERENCE("reference", 30341))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_AVERAGE_LINE_TO_LINE_VOLTAGE_THD, "input",
+        EASTRON_SDM630_AVERAGE_LINE_TO_LINE_VOLTAGE_THD_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30341))
     FIELDSCRIBE_DECODE(eastron_sdm630_average_line_to_line_voltage_thd_decode, fieldscribe_real, uint32_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_average_line_to_line_voltage_thd, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_average_line_to_line_voltage_thd_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_average_line_to_line_voltage_thd_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_average_line_to_line_voltage_thd_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_average_line_to_line_voltage_thd_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, average_line_to_line_voltage_thd, uint32_t, uint32_t, RAW)
 }
 
 static void point_total_active_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_TOTAL_ACTIVE_ENERGY, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_TOTAL_ACTIVE_ENERGY) FIELDSCRIBE_REFERENCE("reference", 30343))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_TOTAL_ACTIVE_ENERGY, "input", EASTRON_SDM630_TOTAL_ACTIVE_ENERGY_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30343))
     FIELDSCRIBE_DECODE(eastron_sdm630_total_active_energy_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_total_active_energy, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_total_active_energy_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_total_active_energy_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_total_active_energy_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_total_active_energy_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, total_active_energy, uint32_t, uint32_t, RAW)
 }
 
 static void point_total_reactive_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_TOTAL_REACTIVE_ENERGY, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_TOTAL_REACTIVE_ENERGY) FIELDSCRIBE_REFERENCE("reference", 30345))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_TOTAL_REACTIVE_ENERGY, "input", EASTRON_SDM630_TOTAL_REACTIVE_ENERGY_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 30345))
     FIELDSCRIBE_DECODE(eastron_sdm630_total_reactive_energy_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_total_reactive_energy, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_total_reactive_energy_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_total_reactive_energy_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_total_reactive_energy_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_total_reactive_energy_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, total_reactive_energy, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_1_import_active_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_IMPORT_ACTIVE_ENERGY, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_1_IMPORT_ACTIVE_ENERGY) FIELDSCRIBE_REFERENCE("reference", 30347))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_IMPORT_ACTIVE_ENERGY, "input",
+        EASTRON_SDM630_PHASE_1_IMPORT_ACTIVE_ENERGY_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30347))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_1_import_active_energy_decode, fieldscribe_real, uint32_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_1_import_active_energy, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_1_import_active_energy_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_1_import_active_energy_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_1_import_active_energy_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_1_import_active_energy_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_1_import_active_energy, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_2_import_active_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_IMPORT_ACTIVE_ENERGY, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_2_IMPORT_ACTIVE_ENERGY) FIELDSCRIBE_REFERENCE("reference", 30349))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_IMPORT_ACTIVE_ENERGY, "input",
+        EASTRON_SDM630_PHASE_2_IMPORT_ACTIVE_ENERGY_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30349))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_2_import_active_energy_decode, fieldscribe_real, uint32_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_2_import_active_energy, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_2_import_active_energy_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_2_import_active_energy_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_2_import_active_energy_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_2_import_active_energy_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_2_import_active_energy, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_3_import_active_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_IMPORT_ACTIVE_ENERGY, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_3_IMPORT_ACTIVE_ENERGY) FIELDSCRIBE_REFERENCE("reference", 30351))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_IMPORT_ACTIVE_ENERGY, "input",
+        EASTRON_SDM630_PHASE_3_IMPORT_ACTIVE_ENERGY_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30351))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_3_import_active_energy_decode, fieldscribe_real, uint32_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_3_import_active_energy, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_3_import_active_energy_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_3_import_active_energy_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_3_import_active_energy_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_3_import_active_energy_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_3_import_active_energy, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_1_export_active_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_EXPORT_ACTIVE_ENERGY, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_1_EXPORT_ACTIVE_ENERGY) FIELDSCRIBE_REFERENCE("reference", 30353))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_EXPORT_ACTIVE_ENERGY, "input",
+        EASTRON_SDM630_PHASE_1_EXPORT_ACTIVE_ENERGY_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30353))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_1_export_active_energy_decode, fieldscribe_real, uint32_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_1_export_active_energy, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_1_export_active_energy_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_1_export_active_energy_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_1_export_active_energy_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_1_export_active_energy_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_1_export_active_energy, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_2_export_active_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_EXPORT_ACTIVE_ENERGY, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_2_EXPORT_ACTIVE_ENERGY) FIELDSCRIBE_REFERENCE("reference", 30355))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_EXPORT_ACTIVE_ENERGY, "input",
+        EASTRON_SDM630_PHASE_2_EXPORT_ACTIVE_ENERGY_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30355))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_2_export_active_energy_decode, fieldscribe_real, uint32_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_2_export_active_energy, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_2_export_active_energy_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_2_export_active_energy_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_2_export_active_energy_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_2_export_active_energy_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_2_export_active_energy, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_3_export_active_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_EXPORT_ACTIVE_ENERGY, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_3_EXPORT_ACTIVE_ENERGY) FIELDSCRIBE_REFERENCE("reference", 30357))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_EXPORT_ACTIVE_ENERGY, "input",
+        EASTRON_SDM630_PHASE_3_EXPORT_ACTIVE_ENERGY_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30357))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_3_export_active_energy_decode, fieldscribe_real, uint32_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_3_export_active_energy, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_3_export_active_energy_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_3_export_active_energy_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_3_export_active_energy_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_3_export_active_energy_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_3_export_active_energy, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_1_total_active_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_TOTAL_ACTIVE_ENERGY, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_1_TOTAL_ACTIVE_ENERGY) FIELDSCRIBE_REFERENCE("reference", 30359))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_TOTAL_ACTIVE_ENERGY, "input",
+        EASTRON_SDM630_PHASE_1_TOTAL_ACTIVE_ENERGY_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30359))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_1_total_active_energy_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_1_total_active_energy, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_1_total_active_energy_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_1_total_active_energy_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_1_total_active_energy_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_1_total_active_energy_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_1_total_active_energy, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_2_total_active_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_TOTAL_ACTIVE_ENERGY, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_2_TOTAL_ACTIVE_ENERGY) FIELDSCRIBE_REFERENCE("reference", 30361))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_TOTAL_ACTIVE_ENERGY, "input",
+        EASTRON_SDM630_PHASE_2_TOTAL_ACTIVE_ENERGY_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30361))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_2_total_active_energy_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_2_total_active_energy, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_2_total_active_energy_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_2_total_active_energy_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_2_total_active_energy_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_2_total_active_energy_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_2_total_active_energy, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_3_total_active_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_TOTAL_ACTIVE_ENERGY, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_3_TOTAL_ACTIVE_ENERGY) FIELDSCRIBE_REFERENCE("reference", 30363))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_TOTAL_ACTIVE_ENERGY, "input",
+        EASTRON_SDM630_PHASE_3_TOTAL_ACTIVE_ENERGY_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30363))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_3_total_active_energy_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_3_total_active_energy, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_3_total_active_energy_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_3_total_active_energy_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_3_total_active_energy_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_3_total_active_energy_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_3_total_active_energy, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_1_import_reactive_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_IMPORT_REACTIVE_ENERGY, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_1_IMPORT_REACTIVE_ENERGY) FIELDSCRIBE_REFERENCE("reference", 30365))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_IMPORT_REACTIVE_ENERGY, "input",
+        EASTRON_SDM630_PHASE_1_IMPORT_REACTIVE_ENERGY_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30365))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_1_import_reactive_energy_decode, fieldscribe_real, uint32_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_1_import_reactive_energy, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_1_import_reactive_energy_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_1_import_reactive_energy_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_1_import_reactive_energy_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_1_import_reactive_energy_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_1_import_reactive_energy, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_2_import_reactive_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_IMPORT_REACTIVE_ENERGY, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_2_IMPORT_REACTIVE_ENERGY) FIELDSCRIBE_REFERENCE("reference", 30367))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_IMPORT_REACTIVE_ENERGY, "input",
+        EASTRON_SDM630_PHASE_2_IMPORT_REACTIVE_ENERGY_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30367))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_2_import_reactive_energy_decode, fieldscribe_real, uint32_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_2_import_reactive_energy, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_2_import_reactive_energy_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_2_import_reactive_energy_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_2_import_reactive_energy_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_2_import_reactive_energy_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_2_import_reactive_energy, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_3_import_reactive_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_IMPORT_REACTIVE_ENERGY, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_3_IMPORT_REACTIVE_ENERGY) FIELDSCRIBE_REFERENCE("reference", 30369))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_IMPORT_REACTIVE_ENERGY, "input",
+        EASTRON_SDM630_PHASE_3_IMPORT_REACTIVE_ENERGY_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30369))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_3_import_reactive_energy_decode, fieldscribe_real, uint32_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_3_import_reactive_energy, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_3_import_reactive_energy_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_3_import_reactive_energy_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_3_import_reactive_energy_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_3_import_reactive_energy_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_3_import_reactive_energy, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_1_export_reactive_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_EXPORT_REACTIVE_ENERGY, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_1_EXPORT_REACTIVE_ENERGY) FIELDSCRIBE_REFERENCE("reference", 30371))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_EXPORT_REACTIVE_ENERGY, "input",
+        EASTRON_SDM630_PHASE_1_EXPORT_REACTIVE_ENERGY_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30371))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_1_export_reactive_energy_decode, fieldscribe_real, uint32_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_1_export_reactive_energy, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_1_export_reactive_energy_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_1_export_reactive_energy_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_1_export_reactive_energy_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_1_export_reactive_energy_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_1_export_reactive_energy, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_2_export_reactive_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_EXPORT_REACTIVE_ENERGY, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_2_EXPORT_REACTIVE_ENERGY) FIELDSCRIBE_REFERENCE("reference", 30373))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_EXPORT_REACTIVE_ENERGY, "input",
+        EASTRON_SDM630_PHASE_2_EXPORT_REACTIVE_ENERGY_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30373))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_2_export_reactive_energy_decode, fieldscribe_real, uint32_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_2_export_reactive_energy, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_2_export_reactive_energy_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_2_export_reactive_energy_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_2_export_reactive_energy_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_2_export_reactive_energy_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_2_export_reactive_energy, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_3_export_reactive_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_EXPORT_REACTIVE_ENERGY, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_3_EXPORT_REACTIVE_ENERGY) FIELDSCRIBE_REFERENCE("reference", 30375))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_EXPORT_REACTIVE_ENERGY, "input",
+        EASTRON_SDM630_PHASE_3_EXPORT_REACTIVE_ENERGY_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30375))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_3_export_reactive_energy_decode, fieldscribe_real, uint32_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_3_export_reactive_energy, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_3_export_reactive_energy_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_3_export_reactive_energy_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_3_export_reactive_energy_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_3_export_reactive_energy_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_3_export_reactive_energy, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_1_total_reactive_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_TOTAL_REACTIVE_ENERGY, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_1_TOTAL_REACTIVE_ENERGY) FIELDSCRIBE_REFERENCE("reference", 30377))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_1_TOTAL_REACTIVE_ENERGY, "input",
+        EASTRON_SDM630_PHASE_1_TOTAL_REACTIVE_ENERGY_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30377))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_1_total_reactive_energy_decode, fieldscribe_real, uint32_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_1_total_reactive_energy, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_1_total_reactive_energy_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_1_total_reactive_energy_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_1_total_reactive_energy_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_1_total_reactive_energy_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_1_total_reactive_energy, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_2_total_reactive_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_TOTAL_REACTIVE_ENERGY, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_2_TOTAL_REACTIVE_ENERGY) FIELDSCRIBE_REFERENCE("reference", 30379))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_2_TOTAL_REACTIVE_ENERGY, "input",
+        EASTRON_SDM630_PHASE_2_TOTAL_REACTIVE_ENERGY_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30379))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_2_total_reactive_energy_decode, fieldscribe_real, uint32_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_2_total_reactive_energy, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_2_total_reactive_energy_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_2_total_reactive_energy_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_2_total_reactive_energy_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_2_total_reactive_energy_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_2_total_reactive_energy, uint32_t, uint32_t, RAW)
 }
 
 static void point_phase_3_total_reactive_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_TOTAL_REACTIVE_ENERGY, FIELDSCRIBE_SPACE("input")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PHASE_3_TOTAL_REACTIVE_ENERGY) FIELDSCRIBE_REFERENCE("reference", 30381))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PHASE_3_TOTAL_REACTIVE_ENERGY, "input",
+        EASTRON_SDM630_PHASE_3_TOTAL_REACTIVE_ENERGY_WORDS, NULL, FIELDSCRIBE_REFERENCE("reference", 30381))
     FIELDSCRIBE_DECODE(eastron_sdm630_phase_3_total_reactive_energy_decode, fieldscribe_real, uint32_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_phase_3_total_reactive_energy, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_phase_3_total_reactive_energy_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_phase_3_total_reactive_energy_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_phase_3_total_reactive_energy_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_phase_3_total_reactive_energy_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, phase_3_total_reactive_energy, uint32_t, uint32_t, RAW)
 }
 
 static void point_demand_time(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_DEMAND_TIME, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_DEMAND_TIME) FIELDSCRIBE_REFERENCE("reference", 40001))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_DEMAND_TIME, "holding", EASTRON_SDM630_DEMAND_TIME_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 40001))
     FIELDSCRIBE_DECODE(eastron_sdm630_demand_time_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_demand_time, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_demand_time_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_demand_time_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_demand_time_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_demand_time_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, demand_time, uint32_t, uint32_t, RAW)
 }
 
 static void point_demand_period(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_DEMAND_PERIOD, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_DEMAND_PERIOD) FIELDSCRIBE_REFERENCE("reference", 40003))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_DEMAND_PERIOD, "holding", EASTRON_SDM630_DEMAND_PERIOD_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 40003))
     FIELDSCRIBE_CHECK(eastron_sdm630_demand_period_check, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE(eastron_sdm630_demand_period_encode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE(eastron_sdm630_demand_period_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_demand_period, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_demand_period_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_demand_period_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE(eastron_sdm630_demand_period_frame, u32, uint32_t)
+    FIELDSCRIBE_READ_WRITE(eastron_sdm630_demand_period_frame, u32)
     FIELDSCRIBE_CALLS(eastron_sdm630, demand_period, uint32_t, uint32_t, RAW)
 }
 
 static void point_system_type(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_SYSTEM_TYPE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_SYSTEM_TYPE) FIELDSCRIBE_RAWS(EASTRON_SDM630_SYSTEM_TYPE)
-        FIELDSCRIBE_REFERENCE("reference", 40011))
-    FIELDSCRIBE_CHECK(eastron_sdm630_system_type_check, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(eastron_sdm630_system_type_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(eastron_sdm630_system_type_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_SYSTEM_TYPE, "holding", EASTRON_SDM630_SYSTEM_TYPE_WORDS, NULL,
+        FIELDSCRIBE_RAWS(EASTRON_SDM630_SYSTEM_TYPE) FIELDSCRIBE_REFERENCE("reference", 40011))
+    FIELDSCRIBE_PLAIN(eastron_sdm630_system_type, int64_t, uint32_t)
     FIELDSCRIBE_NAME(eastron_sdm630_system_type_name, int64_t)
     FIELDSCRIBE_NAMED("three_phase_four_wire", EASTRON_SDM630_SYSTEM_TYPE_THREE_PHASE_FOUR_WIRE)
     FIELDSCRIBE_NAMED("three_phase_three_wire", EASTRON_SDM630_SYSTEM_TYPE_THREE_PHASE_THREE_WIRE)
     FIELDSCRIBE_NAMED("single_phase_two_wire", EASTRON_SDM630_SYSTEM_TYPE_SINGLE_PHASE_TWO_WIRE)
     FIELDSCRIBE_WORDS(eastron_sdm630_system_type, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_system_type_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_system_type_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE(eastron_sdm630_system_type_frame, u32, uint32_t)
+    FIELDSCRIBE_READ_WRITE(eastron_sdm630_system_type_frame, u32)
     FIELDSCRIBE_CALLS(eastron_sdm630, system_type, int64_t, uint32_t, PLAIN)
 }
 
 static void point_pulse_1_width(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PULSE_1_WIDTH, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PULSE_1_WIDTH) FIELDSCRIBE_REFERENCE("reference", 40013))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PULSE_1_WIDTH, "holding", EASTRON_SDM630_PULSE_1_WIDTH_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 40013))
     FIELDSCRIBE_CHECK(eastron_sdm630_pulse_1_width_check, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE(eastron_sdm630_pulse_1_width_encode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE(eastron_sdm630_pulse_1_width_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_pulse_1_width, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_pulse_1_width_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_pulse_1_width_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE(eastron_sdm630_pulse_1_width_frame, u32, uint32_t)
+    FIELDSCRIBE_READ_WRITE(eastron_sdm630_pulse_1_width_frame, u32)
     FIELDSCRIBE_CALLS(eastron_sdm630, pulse_1_width, uint32_t, uint32_t, RAW)
 }
 
 static void point_password_lock(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PASSWORD_LOCK, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PASSWORD_LOCK) FIELDSCRIBE_RAWS(EASTRON_SDM630_PASSWORD_LOCK)
-        FIELDSCRIBE_REFERENCE("reference", 40015))
-    FIELDSCRIBE_CHECK(eastron_sdm630_password_lock_check, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(eastron_sdm630_password_lock_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(eastron_sdm630_password_lock_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PASSWORD_LOCK, "holding", EASTRON_SDM630_PASSWORD_LOCK_WORDS, NULL,
+        FIELDSCRIBE_RAWS(EASTRON_SDM630_PASSWORD_LOCK) FIELDSCRIBE_REFERENCE("reference", 40015))
+    FIELDSCRIBE_PLAIN(eastron_sdm630_password_lock, int64_t, uint32_t)
     FIELDSCRIBE_NAME(eastron_sdm630_password_lock_name, int64_t)
     FIELDSCRIBE_NAMED("unlocked", EASTRON_SDM630_PASSWORD_LOCK_UNLOCKED)
     FIELDSCRIBE_NAMED("locked", EASTRON_SDM630_PASSWORD_LOCK_LOCKED)
     FIELDSCRIBE_WORDS(eastron_sdm630_password_lock, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_password_lock_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_password_lock_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE(eastron_sdm630_password_lock_frame, u32, uint32_t)
+    FIELDSCRIBE_READ_WRITE(eastron_sdm630_password_lock_frame, u32)
     FIELDSCRIBE_CALLS(eastron_sdm630, password_lock, int64_t, uint32_t, PLAIN)
 }
 
 static void point_network_parity_and_stop_bits(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_NETWORK_PARITY_AND_STOP_BITS, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_NETWORK_PARITY_AND_STOP_BITS)
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_NETWORK_PARITY_AND_STOP_BITS, "holding",
+        EASTRON_SDM630_NETWORK_PARITY_AND_STOP_BITS_WORDS, NULL,
         FIELDSCRIBE_RAWS(EASTRON_SDM630_NETWORK_PARITY_AND_STOP_BITS) FIELDSCRIBE_REFERENCE("reference", 40019))
-    FIELDSCRIBE_CHECK(eastron_sdm630_network_parity_and_stop_bits_check, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(eastron_sdm630_network_parity_and_stop_bits_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(eastron_sdm630_network_parity_and_stop_bits_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_PLAIN(eastron_sdm630_network_parity_and_stop_bits, int64_t, uint32_t)
     FIELDSCRIBE_NAME(eastron_sdm630_network_parity_and_stop_bits_name, int64_t)
     FIELDSCRIBE_NAMED("no_parity_2_stop_bits", EASTRON_SDM630_NETWORK_PARITY_AND_STOP_BITS_NO_PARITY_2_STOP_BITS)
     FIELDSCRIBE_NAMED("odd_parity_1_stop_bit", EASTRON_SDM630_NETWORK_PARITY_AND_STOP_BITS_ODD_PARITY_1_STOP_BIT)
     FIELDSCRIBE_NAMED("even_parity_1_stop_bit", EASTRON_SDM630_NETWORK_PARITY_AND_STOP_BITS_EVEN_PARITY_1_STOP_BIT)
     FIELDSCRIBE_NAMED("no_parity_1_stop_bit", EASTRON_SDM630_NETWORK_PARITY_AND_STOP_BITS_NO_PARITY_1_STOP_BIT)
     FIELDSCRIBE_WORDS(eastron_sdm630_network_parity_and_stop_bits, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_network_parity_and_stop_bits_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_network_parity_and_stop_bits_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE(eastron_sdm630_network_parity_and_stop_bits_frame, u32, uint32_t)
+    FIELDSCRIBE_READ_WRITE(eastron_sdm630_network_parity_and_stop_bits_frame, u32)
     FIELDSCRIBE_CALLS(eastron_sdm630, network_parity_and_stop_bits, int64_t, uint32_t, PLAIN)
 }
 
 static void point_network_node(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_NETWORK_NODE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_NETWORK_NODE) FIELDSCRIBE_REFERENCE("reference", 40021))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_NETWORK_NODE, "holding", EASTRON_SDM630_NETWORK_NODE_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 40021))
     FIELDSCRIBE_CHECK(eastron_sdm630_network_node_check, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE(eastron_sdm630_network_node_encode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE(eastron_sdm630_network_node_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_network_node, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_network_node_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_network_node_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE(eastron_sdm630_network_node_frame, u32, uint32_t)
+    FIELDSCRIBE_READ_WRITE(eastron_sdm630_network_node_frame, u32)
     FIELDSCRIBE_CALLS(eastron_sdm630, network_node, uint32_t, uint32_t, RAW)
 }
 
 static void point_pulse_1_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PULSE_1_ENERGY, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PULSE_1_ENERGY) FIELDSCRIBE_RAWS(EASTRON_SDM630_PULSE_1_ENERGY)
-        FIELDSCRIBE_REFERENCE("reference", 40023))
-    FIELDSCRIBE_CHECK(eastron_sdm630_pulse_1_energy_check, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(eastron_sdm630_pulse_1_energy_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(eastron_sdm630_pulse_1_energy_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PULSE_1_ENERGY, "holding", EASTRON_SDM630_PULSE_1_ENERGY_WORDS, NULL,
+        FIELDSCRIBE_RAWS(EASTRON_SDM630_PULSE_1_ENERGY) FIELDSCRIBE_REFERENCE("reference", 40023))
+    FIELDSCRIBE_PLAIN(eastron_sdm630_pulse_1_energy, int64_t, uint32_t)
     FIELDSCRIBE_NAME(eastron_sdm630_pulse_1_energy_name, int64_t)
     FIELDSCRIBE_NAMED("kwh_100", EASTRON_SDM630_PULSE_1_ENERGY_KWH_100)
     FIELDSCRIBE_NAMED("kwh_10", EASTRON_SDM630_PULSE_1_ENERGY_KWH_10)
@@ -1094,34 +1070,27 @@ static void point_pulse_1_energy(fieldscribe_vector *v)
     FIELDSCRIBE_NAMED("kwh_0_01", EASTRON_SDM630_PULSE_1_ENERGY_KWH_0_01)
     FIELDSCRIBE_NAMED("kwh_0_0025", EASTRON_SDM630_PULSE_1_ENERGY_KWH_0_0025)
     FIELDSCRIBE_WORDS(eastron_sdm630_pulse_1_energy, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_pulse_1_energy_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_pulse_1_energy_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE(eastron_sdm630_pulse_1_energy_frame, u32, uint32_t)
+    FIELDSCRIBE_READ_WRITE(eastron_sdm630_pulse_1_energy_frame, u32)
     FIELDSCRIBE_CALLS(eastron_sdm630, pulse_1_energy, int64_t, uint32_t, PLAIN)
 }
 
 static void point_password(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PASSWORD, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PASSWORD) FIELDSCRIBE_REFERENCE("reference", 40025))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PASSWORD, "holding", EASTRON_SDM630_PASSWORD_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 40025))
     FIELDSCRIBE_CHECK(eastron_sdm630_password_check, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE(eastron_sdm630_password_encode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE(eastron_sdm630_password_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_password, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_password_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_password_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE(eastron_sdm630_password_frame, u32, uint32_t)
+    FIELDSCRIBE_READ_WRITE(eastron_sdm630_password_frame, u32)
     FIELDSCRIBE_CALLS(eastron_sdm630, password, uint32_t, uint32_t, RAW)
 }
 
 static void point_network_baud_rate(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_NETWORK_BAUD_RATE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_NETWORK_BAUD_RATE) FIELDSCRIBE_RAWS(EASTRON_SDM630_NETWORK_BAUD_RATE)
-        FIELDSCRIBE_REFERENCE("reference", 40029))
-    FIELDSCRIBE_CHECK(eastron_sdm630_network_baud_rate_check, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(eastron_sdm630_network_baud_rate_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(eastron_sdm630_network_baud_rate_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_NETWORK_BAUD_RATE, "holding", EASTRON_SDM630_NETWORK_BAUD_RATE_WORDS, NULL,
+        FIELDSCRIBE_RAWS(EASTRON_SDM630_NETWORK_BAUD_RATE) FIELDSCRIBE_REFERENCE("reference", 40029))
+    FIELDSCRIBE_PLAIN(eastron_sdm630_network_baud_rate, int64_t, uint32_t)
     FIELDSCRIBE_NAME(eastron_sdm630_network_baud_rate_name, int64_t)
     FIELDSCRIBE_NAMED("baud_38400", EASTRON_SDM630_NETWORK_BAUD_RATE_BAUD_38400)
     FIELDSCRIBE_NAMED("baud_19200", EASTRON_SDM630_NETWORK_BAUD_RATE_BAUD_19200)
@@ -1129,20 +1098,15 @@ static void point_network_baud_rate(fieldscribe_vector *v)
     FIELDSCRIBE_NAMED("baud_4800", EASTRON_SDM630_NETWORK_BAUD_RATE_BAUD_4800)
     FIELDSCRIBE_NAMED("baud_2400", EASTRON_SDM630_NETWORK_BAUD_RATE_BAUD_2400)
     FIELDSCRIBE_WORDS(eastron_sdm630_network_baud_rate, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_network_baud_rate_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_network_baud_rate_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE(eastron_sdm630_network_baud_rate_frame, u32, uint32_t)
+    FIELDSCRIBE_READ_WRITE(eastron_sdm630_network_baud_rate_frame, u32)
     FIELDSCRIBE_CALLS(eastron_sdm630, network_baud_rate, int64_t, uint32_t, PLAIN)
 }
 
 static void point_pulse_1_energy_type(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PULSE_1_ENERGY_TYPE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_PULSE_1_ENERGY_TYPE) FIELDSCRIBE_RAWS(EASTRON_SDM630_PULSE_1_ENERGY_TYPE)
-        FIELDSCRIBE_REFERENCE("reference", 40087))
-    FIELDSCRIBE_CHECK(eastron_sdm630_pulse_1_energy_type_check, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(eastron_sdm630_pulse_1_energy_type_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(eastron_sdm630_pulse_1_energy_type_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_PULSE_1_ENERGY_TYPE, "holding", EASTRON_SDM630_PULSE_1_ENERGY_TYPE_WORDS, NULL,
+        FIELDSCRIBE_RAWS(EASTRON_SDM630_PULSE_1_ENERGY_TYPE) FIELDSCRIBE_REFERENCE("reference", 40087))
+    FIELDSCRIBE_PLAIN(eastron_sdm630_pulse_1_energy_type, int64_t, uint32_t)
     FIELDSCRIBE_NAME(eastron_sdm630_pulse_1_energy_type_name, int64_t)
     FIELDSCRIBE_NAMED("export_reactive_energy", EASTRON_SDM630_PULSE_1_ENERGY_TYPE_EXPORT_REACTIVE_ENERGY)
     FIELDSCRIBE_NAMED("total_reactive_energy", EASTRON_SDM630_PULSE_1_ENERGY_TYPE_TOTAL_REACTIVE_ENERGY)
@@ -1151,48 +1115,43 @@ static void point_pulse_1_energy_type(fieldscribe_vector *v)
     FIELDSCRIBE_NAMED("total_active_energy", EASTRON_SDM630_PULSE_1_ENERGY_TYPE_TOTAL_ACTIVE_ENERGY)
     FIELDSCRIBE_NAMED("import_active_energy", EASTRON_SDM630_PULSE_1_ENERGY_TYPE_IMPORT_ACTIVE_ENERGY)
     FIELDSCRIBE_WORDS(eastron_sdm630_pulse_1_energy_type, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_pulse_1_energy_type_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_pulse_1_energy_type_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE(eastron_sdm630_pulse_1_energy_type_frame, u32, uint32_t)
+    FIELDSCRIBE_READ_WRITE(eastron_sdm630_pulse_1_energy_type_frame, u32)
     FIELDSCRIBE_CALLS(eastron_sdm630, pulse_1_energy_type, int64_t, uint32_t, PLAIN)
 }
 
 static void point_reset(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_RESET, FIELDSCRIBE_SPACE("holding") FIELDSCRIBE_ONE(EASTRON_SDM630_RESET)
-        FIELDSCRIBE_RAWS(EASTRON_SDM630_RESET) FIELDSCRIBE_REFERENCE("reference", 461457))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_RESET, "holding", 1U, NULL, FIELDSCRIBE_RAWS(EASTRON_SDM630_RESET)
+        FIELDSCRIBE_REFERENCE("reference", 461457))
     FIELDSCRIBE_CHECK(eastron_sdm630_reset_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(eastron_sdm630_reset_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_NAME(eastron_sdm630_reset_name, int32_t)
     FIELDSCRIBE_NAMED("maximum_demand", EASTRON_SDM630_RESET_MAXIMUM_DEMAND)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(eastron_sdm630_reset_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_WRITE(eastron_sdm630_reset_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_reset_frame)
+    FIELDSCRIBE_WRITE(eastron_sdm630_reset_frame, u16)
 }
 
 static void point_serial_number(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_SERIAL_NUMBER, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_SERIAL_NUMBER) FIELDSCRIBE_ONLY_READ(0, 4294967295)
-        FIELDSCRIBE_REFERENCE("reference", 464513))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_SERIAL_NUMBER, "holding", EASTRON_SDM630_SERIAL_NUMBER_WORDS, NULL,
+        FIELDSCRIBE_ONLY_READ(0, 4294967295) FIELDSCRIBE_REFERENCE("reference", 464513))
     FIELDSCRIBE_DECODE_COUNT(eastron_sdm630_serial_number_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_serial_number, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_serial_number_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_serial_number_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(eastron_sdm630_serial_number_frame)
+    FIELDSCRIBE_READ(eastron_sdm630_serial_number_frame, u32)
     FIELDSCRIBE_CALL_READ(eastron_sdm630, serial_number, int64_t, uint32_t, PLAIN)
 }
 
 static void point_register_order(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_REGISTER_ORDER, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(EASTRON_SDM630_REGISTER_ORDER) FIELDSCRIBE_REFERENCE("reference", 40041))
+    FIELDSCRIBE_ADDRESS(EASTRON_SDM630_REGISTER_ORDER, "holding", EASTRON_SDM630_REGISTER_ORDER_WORDS, NULL,
+        FIELDSCRIBE_REFERENCE("reference", 40041))
     FIELDSCRIBE_CHECK(eastron_sdm630_register_order_check, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE(eastron_sdm630_register_order_encode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE(eastron_sdm630_register_order_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(eastron_sdm630_register_order, uint32_t, 2U)
-    FIELDSCRIBE_LIES(eastron_sdm630_register_order_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(eastron_sdm630_register_order_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE(eastron_sdm630_register_order_frame, u32, uint32_t)
+    FIELDSCRIBE_READ_WRITE(eastron_sdm630_register_order_frame, u32)
     FIELDSCRIBE_CALLS(eastron_sdm630, register_order, uint32_t, uint32_t, RAW)
 }
 

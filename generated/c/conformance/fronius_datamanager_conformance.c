@@ -9,11 +9,22 @@
 #include "../fronius_datamanager_modbus.h"
 #include "../fieldscribe_conformance_modbus.h"
 
+static void names_of_operating_state(fieldscribe_vector *v)
+{
+    FIELDSCRIBE_NAMED("standby", FRONIUS_DATAMANAGER_OPERATING_STATE_STANDBY)
+    FIELDSCRIBE_NAMED("fault", FRONIUS_DATAMANAGER_OPERATING_STATE_FAULT)
+    FIELDSCRIBE_NAMED("shutting_down", FRONIUS_DATAMANAGER_OPERATING_STATE_SHUTTING_DOWN)
+    FIELDSCRIBE_NAMED("throttled", FRONIUS_DATAMANAGER_OPERATING_STATE_THROTTLED)
+    FIELDSCRIBE_NAMED("mppt", FRONIUS_DATAMANAGER_OPERATING_STATE_MPPT)
+    FIELDSCRIBE_NAMED("starting", FRONIUS_DATAMANAGER_OPERATING_STATE_STARTING)
+    FIELDSCRIBE_NAMED("sleeping", FRONIUS_DATAMANAGER_OPERATING_STATE_SLEEPING)
+    FIELDSCRIBE_NAMED("off", FRONIUS_DATAMANAGER_OPERATING_STATE_OFF)
+}
+
 static void point_manufacturer(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MANUFACTURER, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_MANUFACTURER) FIELDSCRIBE_CODE("Mn") FIELDSCRIBE_REFERENCE("register",
-        40005))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MANUFACTURER, "holding", FRONIUS_DATAMANAGER_MANUFACTURER_WORDS, "Mn",
+        FIELDSCRIBE_REFERENCE("register", 40005))
     FIELDSCRIBE_TEXT_DECODE(fronius_datamanager_manufacturer, FRONIUS_DATAMANAGER_MANUFACTURER)
     FIELDSCRIBE_PLACE_OF_TEXT(FRONIUS_DATAMANAGER_MANUFACTURER, fronius_datamanager_manufacturer, )
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_text_r, fronius_datamanager_manufacturer_frame, "models_1")
@@ -25,8 +36,8 @@ static void point_manufacturer(fieldscribe_vector *v)
 
 static void point_model(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODEL, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_MODEL) FIELDSCRIBE_CODE("Md") FIELDSCRIBE_REFERENCE("register", 40021))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODEL, "holding", FRONIUS_DATAMANAGER_MODEL_WORDS, "Md",
+        FIELDSCRIBE_REFERENCE("register", 40021))
     FIELDSCRIBE_TEXT_DECODE(fronius_datamanager_model, FRONIUS_DATAMANAGER_MODEL)
     FIELDSCRIBE_PLACE_OF_TEXT(FRONIUS_DATAMANAGER_MODEL, fronius_datamanager_model, )
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_text_r, fronius_datamanager_model_frame, "models_1")
@@ -38,9 +49,8 @@ static void point_model(fieldscribe_vector *v)
 
 static void point_options(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_OPTIONS, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_OPTIONS) FIELDSCRIBE_CODE("Opt") FIELDSCRIBE_REFERENCE("register",
-        40037))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_OPTIONS, "holding", FRONIUS_DATAMANAGER_OPTIONS_WORDS, "Opt",
+        FIELDSCRIBE_REFERENCE("register", 40037))
     FIELDSCRIBE_TEXT_DECODE(fronius_datamanager_options, FRONIUS_DATAMANAGER_OPTIONS)
     FIELDSCRIBE_PLACE_OF_TEXT(FRONIUS_DATAMANAGER_OPTIONS, fronius_datamanager_options, )
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_text_r, fronius_datamanager_options_frame, "models_1")
@@ -52,9 +62,8 @@ static void point_options(fieldscribe_vector *v)
 
 static void point_version(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_VERSION, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_VERSION) FIELDSCRIBE_CODE("Vr") FIELDSCRIBE_REFERENCE("register",
-        40045))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_VERSION, "holding", FRONIUS_DATAMANAGER_VERSION_WORDS, "Vr",
+        FIELDSCRIBE_REFERENCE("register", 40045))
     FIELDSCRIBE_TEXT_DECODE(fronius_datamanager_version, FRONIUS_DATAMANAGER_VERSION)
     FIELDSCRIBE_PLACE_OF_TEXT(FRONIUS_DATAMANAGER_VERSION, fronius_datamanager_version, )
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_text_r, fronius_datamanager_version_frame, "models_1")
@@ -66,9 +75,8 @@ static void point_version(fieldscribe_vector *v)
 
 static void point_serial_number(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_SERIAL_NUMBER, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_SERIAL_NUMBER) FIELDSCRIBE_CODE("SN") FIELDSCRIBE_REFERENCE("register",
-        40053))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_SERIAL_NUMBER, "holding", FRONIUS_DATAMANAGER_SERIAL_NUMBER_WORDS, "SN",
+        FIELDSCRIBE_REFERENCE("register", 40053))
     FIELDSCRIBE_TEXT_DECODE(fronius_datamanager_serial_number, FRONIUS_DATAMANAGER_SERIAL_NUMBER)
     FIELDSCRIBE_PLACE_OF_TEXT(FRONIUS_DATAMANAGER_SERIAL_NUMBER, fronius_datamanager_serial_number, )
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_text_r, fronius_datamanager_serial_number_frame, "models_1")
@@ -80,15 +88,14 @@ static void point_serial_number(fieldscribe_vector *v)
 
 static void point_device_address(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_DEVICE_ADDRESS, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_DEVICE_ADDRESS) FIELDSCRIBE_ONLY_READ(1, 247) FIELDSCRIBE_CODE("DA")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_DEVICE_ADDRESS, "holding", 1U, "DA", FIELDSCRIBE_ONLY_READ(1, 247)
         FIELDSCRIBE_REFERENCE("register", 40069))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_device_address_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_device_address_frame, "models_1")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_device_address, int32_t, uint16_t,
         FIELDSCRIBE_BASE("models_1") FIELDSCRIBE_ALONE, (int)fronius_datamanager_device_address_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -99,16 +106,15 @@ static void point_device_address(fieldscribe_vector *v)
 
 static void point_ac_current(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_AC_CURRENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_AC_CURRENT) FIELDSCRIBE_ONLY_READ(0, 65534) FIELDSCRIBE_CODE("A")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_AC_CURRENT, "holding", 1U, "A", FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40072))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_ac_current_decode, double, uint16_t,
         FIELDSCRIBE_WITH("ac_current_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_ac_current_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_ac_current, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_ac_current,
         uint16_t))
@@ -119,16 +125,15 @@ static void point_ac_current(fieldscribe_vector *v)
 
 static void point_phase_a_current(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_PHASE_A_CURRENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_PHASE_A_CURRENT) FIELDSCRIBE_ONLY_READ(0, 65534) FIELDSCRIBE_CODE("AphA")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_PHASE_A_CURRENT, "holding", 1U, "AphA", FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40073))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_phase_a_current_decode, double, uint16_t,
         FIELDSCRIBE_WITH("ac_current_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_phase_a_current_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_phase_a_current, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_phase_a_current,
         uint16_t))
@@ -139,16 +144,15 @@ static void point_phase_a_current(fieldscribe_vector *v)
 
 static void point_phase_b_current(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_PHASE_B_CURRENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_PHASE_B_CURRENT) FIELDSCRIBE_ONLY_READ(0, 65534) FIELDSCRIBE_CODE("AphB")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_PHASE_B_CURRENT, "holding", 1U, "AphB", FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40074))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_phase_b_current_decode, double, uint16_t,
         FIELDSCRIBE_WITH("ac_current_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_phase_b_current_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_phase_b_current, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_phase_b_current,
         uint16_t))
@@ -159,16 +163,15 @@ static void point_phase_b_current(fieldscribe_vector *v)
 
 static void point_phase_c_current(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_PHASE_C_CURRENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_PHASE_C_CURRENT) FIELDSCRIBE_ONLY_READ(0, 65534) FIELDSCRIBE_CODE("AphC")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_PHASE_C_CURRENT, "holding", 1U, "AphC", FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40075))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_phase_c_current_decode, double, uint16_t,
         FIELDSCRIBE_WITH("ac_current_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_phase_c_current_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_phase_c_current, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_phase_c_current,
         uint16_t))
@@ -179,15 +182,14 @@ static void point_phase_c_current(fieldscribe_vector *v)
 
 static void point_ac_current_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_AC_CURRENT_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_AC_CURRENT_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("A_SF") FIELDSCRIBE_REFERENCE("register", 40076))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_AC_CURRENT_EXPONENT, "holding", 1U, "A_SF", FIELDSCRIBE_ONLY_READ((-10), 10)
+        FIELDSCRIBE_REFERENCE("register", 40076))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_ac_current_exponent_decode, int32_t, int16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_ac_current_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_ac_current_exponent_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_ac_current_exponent, int32_t, int16_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, (int)fronius_datamanager_ac_current_exponent_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -198,16 +200,15 @@ static void point_ac_current_exponent(fieldscribe_vector *v)
 
 static void point_phase_a_to_b_voltage(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_PHASE_A_TO_B_VOLTAGE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_PHASE_A_TO_B_VOLTAGE) FIELDSCRIBE_ONLY_READ(0, 65534)
-        FIELDSCRIBE_CODE("PPVphAB") FIELDSCRIBE_REFERENCE("register", 40077))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_PHASE_A_TO_B_VOLTAGE, "holding", 1U, "PPVphAB", FIELDSCRIBE_ONLY_READ(0,
+        65534) FIELDSCRIBE_REFERENCE("register", 40077))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_phase_a_to_b_voltage_decode, double, uint16_t,
         FIELDSCRIBE_WITH("ac_voltage_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_phase_a_to_b_voltage_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_phase_a_to_b_voltage, uint16_t,
         uint16_t, FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_phase_a_to_b_voltage, uint16_t))
@@ -218,16 +219,15 @@ static void point_phase_a_to_b_voltage(fieldscribe_vector *v)
 
 static void point_phase_b_to_c_voltage(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_PHASE_B_TO_C_VOLTAGE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_PHASE_B_TO_C_VOLTAGE) FIELDSCRIBE_ONLY_READ(0, 65534)
-        FIELDSCRIBE_CODE("PPVphBC") FIELDSCRIBE_REFERENCE("register", 40078))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_PHASE_B_TO_C_VOLTAGE, "holding", 1U, "PPVphBC", FIELDSCRIBE_ONLY_READ(0,
+        65534) FIELDSCRIBE_REFERENCE("register", 40078))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_phase_b_to_c_voltage_decode, double, uint16_t,
         FIELDSCRIBE_WITH("ac_voltage_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_phase_b_to_c_voltage_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_phase_b_to_c_voltage, uint16_t,
         uint16_t, FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_phase_b_to_c_voltage, uint16_t))
@@ -238,16 +238,15 @@ static void point_phase_b_to_c_voltage(fieldscribe_vector *v)
 
 static void point_phase_c_to_a_voltage(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_PHASE_C_TO_A_VOLTAGE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_PHASE_C_TO_A_VOLTAGE) FIELDSCRIBE_ONLY_READ(0, 65534)
-        FIELDSCRIBE_CODE("PPVphCA") FIELDSCRIBE_REFERENCE("register", 40079))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_PHASE_C_TO_A_VOLTAGE, "holding", 1U, "PPVphCA", FIELDSCRIBE_ONLY_READ(0,
+        65534) FIELDSCRIBE_REFERENCE("register", 40079))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_phase_c_to_a_voltage_decode, double, uint16_t,
         FIELDSCRIBE_WITH("ac_voltage_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_phase_c_to_a_voltage_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_phase_c_to_a_voltage, uint16_t,
         uint16_t, FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_phase_c_to_a_voltage, uint16_t))
@@ -258,16 +257,15 @@ static void point_phase_c_to_a_voltage(fieldscribe_vector *v)
 
 static void point_phase_a_voltage(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_PHASE_A_VOLTAGE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_PHASE_A_VOLTAGE) FIELDSCRIBE_ONLY_READ(0, 65534) FIELDSCRIBE_CODE("PhVphA")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_PHASE_A_VOLTAGE, "holding", 1U, "PhVphA", FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40080))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_phase_a_voltage_decode, double, uint16_t,
         FIELDSCRIBE_WITH("ac_voltage_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_phase_a_voltage_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_phase_a_voltage, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_phase_a_voltage,
         uint16_t))
@@ -278,16 +276,15 @@ static void point_phase_a_voltage(fieldscribe_vector *v)
 
 static void point_phase_b_voltage(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_PHASE_B_VOLTAGE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_PHASE_B_VOLTAGE) FIELDSCRIBE_ONLY_READ(0, 65534) FIELDSCRIBE_CODE("PhVphB")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_PHASE_B_VOLTAGE, "holding", 1U, "PhVphB", FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40081))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_phase_b_voltage_decode, double, uint16_t,
         FIELDSCRIBE_WITH("ac_voltage_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_phase_b_voltage_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_phase_b_voltage, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_phase_b_voltage,
         uint16_t))
@@ -298,16 +295,15 @@ static void point_phase_b_voltage(fieldscribe_vector *v)
 
 static void point_phase_c_voltage(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_PHASE_C_VOLTAGE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_PHASE_C_VOLTAGE) FIELDSCRIBE_ONLY_READ(0, 65534) FIELDSCRIBE_CODE("PhVphC")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_PHASE_C_VOLTAGE, "holding", 1U, "PhVphC", FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40082))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_phase_c_voltage_decode, double, uint16_t,
         FIELDSCRIBE_WITH("ac_voltage_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_phase_c_voltage_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_phase_c_voltage, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_phase_c_voltage,
         uint16_t))
@@ -318,15 +314,14 @@ static void point_phase_c_voltage(fieldscribe_vector *v)
 
 static void point_ac_voltage_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_AC_VOLTAGE_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_AC_VOLTAGE_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("V_SF") FIELDSCRIBE_REFERENCE("register", 40083))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_AC_VOLTAGE_EXPONENT, "holding", 1U, "V_SF", FIELDSCRIBE_ONLY_READ((-10), 10)
+        FIELDSCRIBE_REFERENCE("register", 40083))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_ac_voltage_exponent_decode, int32_t, int16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_ac_voltage_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_ac_voltage_exponent_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_ac_voltage_exponent, int32_t, int16_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, (int)fronius_datamanager_ac_voltage_exponent_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -337,16 +332,15 @@ static void point_ac_voltage_exponent(fieldscribe_vector *v)
 
 static void point_ac_power(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_AC_POWER, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_AC_POWER) FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_CODE("W")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_AC_POWER, "holding", 1U, "W", FIELDSCRIBE_ONLY_READ((-32767), 32767)
         FIELDSCRIBE_REFERENCE("register", 40084))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_ac_power_decode, double, int16_t, FIELDSCRIBE_WITH("ac_power_exponent",
         int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_ac_power, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_ac_power_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_ac_power, int16_t, int16_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_ac_power, int16_t))
     FIELDSCRIBE_SPECIAL("not_implemented", FRONIUS_DATAMANAGER_INVERTER_S16_NOT_IMPLEMENTED,
@@ -356,15 +350,14 @@ static void point_ac_power(fieldscribe_vector *v)
 
 static void point_ac_power_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_AC_POWER_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_AC_POWER_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_CODE("W_SF")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_AC_POWER_EXPONENT, "holding", 1U, "W_SF", FIELDSCRIBE_ONLY_READ((-10), 10)
         FIELDSCRIBE_REFERENCE("register", 40085))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_ac_power_exponent_decode, int32_t, int16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_ac_power_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_ac_power_exponent_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_ac_power_exponent, int32_t, int16_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, (int)fronius_datamanager_ac_power_exponent_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -375,16 +368,15 @@ static void point_ac_power_exponent(fieldscribe_vector *v)
 
 static void point_frequency(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_FREQUENCY, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_FREQUENCY) FIELDSCRIBE_ONLY_READ(0, 65534) FIELDSCRIBE_CODE("Hz")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_FREQUENCY, "holding", 1U, "Hz", FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40086))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_frequency_decode, double, uint16_t,
         FIELDSCRIBE_WITH("frequency_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_frequency_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_frequency, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_frequency,
         uint16_t))
@@ -395,15 +387,14 @@ static void point_frequency(fieldscribe_vector *v)
 
 static void point_frequency_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_FREQUENCY_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_FREQUENCY_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("Hz_SF") FIELDSCRIBE_REFERENCE("register", 40087))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_FREQUENCY_EXPONENT, "holding", 1U, "Hz_SF", FIELDSCRIBE_ONLY_READ((-10), 10)
+        FIELDSCRIBE_REFERENCE("register", 40087))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_frequency_exponent_decode, int32_t, int16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_frequency_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_frequency_exponent_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_frequency_exponent, int32_t, int16_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, (int)fronius_datamanager_frequency_exponent_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -414,16 +405,15 @@ static void point_frequency_exponent(fieldscribe_vector *v)
 
 static void point_apparent_power(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_APPARENT_POWER, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_APPARENT_POWER) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_CODE("VA") FIELDSCRIBE_REFERENCE("register", 40088))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_APPARENT_POWER, "holding", 1U, "VA", FIELDSCRIBE_ONLY_READ((-32767), 32767)
+        FIELDSCRIBE_REFERENCE("register", 40088))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_apparent_power_decode, double, int16_t,
         FIELDSCRIBE_WITH("apparent_power_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_apparent_power, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_apparent_power_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_apparent_power, int16_t, int16_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_apparent_power,
         int16_t))
@@ -434,16 +424,15 @@ static void point_apparent_power(fieldscribe_vector *v)
 
 static void point_apparent_power_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_APPARENT_POWER_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_APPARENT_POWER_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("VA_SF") FIELDSCRIBE_REFERENCE("register", 40089))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_APPARENT_POWER_EXPONENT, "holding", 1U, "VA_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40089))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_apparent_power_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_apparent_power_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_apparent_power_exponent_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_apparent_power_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_apparent_power_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -454,16 +443,15 @@ static void point_apparent_power_exponent(fieldscribe_vector *v)
 
 static void point_reactive_power(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_POWER, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_REACTIVE_POWER) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_CODE("VAr") FIELDSCRIBE_REFERENCE("register", 40090))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_POWER, "holding", 1U, "VAr", FIELDSCRIBE_ONLY_READ((-32767), 32767)
+        FIELDSCRIBE_REFERENCE("register", 40090))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_reactive_power_decode, double, int16_t,
         FIELDSCRIBE_WITH("reactive_power_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_reactive_power, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_reactive_power_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_reactive_power, int16_t, int16_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_reactive_power,
         int16_t))
@@ -474,16 +462,15 @@ static void point_reactive_power(fieldscribe_vector *v)
 
 static void point_reactive_power_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_POWER_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_REACTIVE_POWER_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("VAr_SF") FIELDSCRIBE_REFERENCE("register", 40091))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_POWER_EXPONENT, "holding", 1U, "VAr_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40091))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_reactive_power_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_reactive_power_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_reactive_power_exponent_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_reactive_power_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_reactive_power_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -494,16 +481,15 @@ static void point_reactive_power_exponent(fieldscribe_vector *v)
 
 static void point_power_factor(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_FACTOR, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_POWER_FACTOR) FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_CODE("PF")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_FACTOR, "holding", 1U, "PF", FIELDSCRIBE_ONLY_READ((-32767), 32767)
         FIELDSCRIBE_REFERENCE("register", 40092))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_power_factor_decode, double, int16_t,
         FIELDSCRIBE_WITH("power_factor_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_power_factor, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_power_factor_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_power_factor, int16_t, int16_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_power_factor,
         int16_t))
@@ -514,15 +500,14 @@ static void point_power_factor(fieldscribe_vector *v)
 
 static void point_power_factor_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_FACTOR_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_POWER_FACTOR_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("PF_SF") FIELDSCRIBE_REFERENCE("register", 40093))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_FACTOR_EXPONENT, "holding", 1U, "PF_SF", FIELDSCRIBE_ONLY_READ((-10),
+        10) FIELDSCRIBE_REFERENCE("register", 40093))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_power_factor_exponent_decode, int32_t, int16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_power_factor_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_power_factor_exponent_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_power_factor_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_power_factor_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -533,16 +518,15 @@ static void point_power_factor_exponent(fieldscribe_vector *v)
 
 static void point_lifetime_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_LIFETIME_ENERGY, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_LIFETIME_ENERGY) FIELDSCRIBE_ONLY_READ(0, 4294967294)
-        FIELDSCRIBE_CODE("WH") FIELDSCRIBE_REFERENCE("register", 40094))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_LIFETIME_ENERGY, "holding", FRONIUS_DATAMANAGER_LIFETIME_ENERGY_WORDS, "WH",
+        FIELDSCRIBE_ONLY_READ(0, 4294967294) FIELDSCRIBE_REFERENCE("register", 40094))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_lifetime_energy_decode, double, uint32_t,
         FIELDSCRIBE_WITH("lifetime_energy_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_lifetime_energy, uint32_t, 2U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_lifetime_energy_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u32)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_lifetime_energy, uint32_t, uint32_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_lifetime_energy,
         uint32_t))
@@ -553,16 +537,15 @@ static void point_lifetime_energy(fieldscribe_vector *v)
 
 static void point_lifetime_energy_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_LIFETIME_ENERGY_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_LIFETIME_ENERGY_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("WH_SF") FIELDSCRIBE_REFERENCE("register", 40096))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_LIFETIME_ENERGY_EXPONENT, "holding", 1U, "WH_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40096))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_lifetime_energy_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_lifetime_energy_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_lifetime_energy_exponent_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_lifetime_energy_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_lifetime_energy_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -573,16 +556,15 @@ static void point_lifetime_energy_exponent(fieldscribe_vector *v)
 
 static void point_dc_current(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_DC_CURRENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_DC_CURRENT) FIELDSCRIBE_ONLY_READ(0, 65534) FIELDSCRIBE_CODE("DCA")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_DC_CURRENT, "holding", 1U, "DCA", FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40097))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_dc_current_decode, double, uint16_t,
         FIELDSCRIBE_WITH("dc_current_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_dc_current_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_dc_current, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_dc_current,
         uint16_t))
@@ -593,15 +575,14 @@ static void point_dc_current(fieldscribe_vector *v)
 
 static void point_dc_current_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_DC_CURRENT_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_DC_CURRENT_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("DCA_SF") FIELDSCRIBE_REFERENCE("register", 40098))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_DC_CURRENT_EXPONENT, "holding", 1U, "DCA_SF", FIELDSCRIBE_ONLY_READ((-10),
+        10) FIELDSCRIBE_REFERENCE("register", 40098))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_dc_current_exponent_decode, int32_t, int16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_dc_current_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_dc_current_exponent_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_dc_current_exponent, int32_t, int16_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, (int)fronius_datamanager_dc_current_exponent_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -612,16 +593,15 @@ static void point_dc_current_exponent(fieldscribe_vector *v)
 
 static void point_dc_voltage(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_DC_VOLTAGE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_DC_VOLTAGE) FIELDSCRIBE_ONLY_READ(0, 65534) FIELDSCRIBE_CODE("DCV")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_DC_VOLTAGE, "holding", 1U, "DCV", FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40099))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_dc_voltage_decode, double, uint16_t,
         FIELDSCRIBE_WITH("dc_voltage_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_dc_voltage_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_dc_voltage, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_dc_voltage,
         uint16_t))
@@ -632,15 +612,14 @@ static void point_dc_voltage(fieldscribe_vector *v)
 
 static void point_dc_voltage_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_DC_VOLTAGE_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_DC_VOLTAGE_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("DCV_SF") FIELDSCRIBE_REFERENCE("register", 40100))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_DC_VOLTAGE_EXPONENT, "holding", 1U, "DCV_SF", FIELDSCRIBE_ONLY_READ((-10),
+        10) FIELDSCRIBE_REFERENCE("register", 40100))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_dc_voltage_exponent_decode, int32_t, int16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_dc_voltage_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_dc_voltage_exponent_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_dc_voltage_exponent, int32_t, int16_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, (int)fronius_datamanager_dc_voltage_exponent_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -651,16 +630,15 @@ static void point_dc_voltage_exponent(fieldscribe_vector *v)
 
 static void point_dc_power(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_DC_POWER, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_DC_POWER) FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_CODE("DCW")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_DC_POWER, "holding", 1U, "DCW", FIELDSCRIBE_ONLY_READ((-32767), 32767)
         FIELDSCRIBE_REFERENCE("register", 40101))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_dc_power_decode, double, int16_t, FIELDSCRIBE_WITH("dc_power_exponent",
         int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_dc_power, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_dc_power_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_dc_power, int16_t, int16_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_dc_power, int16_t))
     FIELDSCRIBE_SPECIAL("not_implemented", FRONIUS_DATAMANAGER_INVERTER_S16_NOT_IMPLEMENTED,
@@ -670,15 +648,14 @@ static void point_dc_power(fieldscribe_vector *v)
 
 static void point_dc_power_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_DC_POWER_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_DC_POWER_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("DCW_SF") FIELDSCRIBE_REFERENCE("register", 40102))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_DC_POWER_EXPONENT, "holding", 1U, "DCW_SF", FIELDSCRIBE_ONLY_READ((-10), 10)
+        FIELDSCRIBE_REFERENCE("register", 40102))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_dc_power_exponent_decode, int32_t, int16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_dc_power_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_dc_power_exponent_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_dc_power_exponent, int32_t, int16_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, (int)fronius_datamanager_dc_power_exponent_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -689,16 +666,15 @@ static void point_dc_power_exponent(fieldscribe_vector *v)
 
 static void point_cabinet_temperature(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_CABINET_TEMPERATURE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_CABINET_TEMPERATURE) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_CODE("TmpCab") FIELDSCRIBE_REFERENCE("register", 40103))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_CABINET_TEMPERATURE, "holding", 1U, "TmpCab",
+        FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_REFERENCE("register", 40103))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_cabinet_temperature_decode, double, int16_t,
         FIELDSCRIBE_WITH("temperature_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_cabinet_temperature, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_cabinet_temperature_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_cabinet_temperature, int16_t, int16_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_cabinet_temperature, int16_t))
@@ -709,16 +685,15 @@ static void point_cabinet_temperature(fieldscribe_vector *v)
 
 static void point_heat_sink_temperature(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_HEAT_SINK_TEMPERATURE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_HEAT_SINK_TEMPERATURE) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_CODE("TmpSnk") FIELDSCRIBE_REFERENCE("register", 40104))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_HEAT_SINK_TEMPERATURE, "holding", 1U, "TmpSnk",
+        FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_REFERENCE("register", 40104))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_heat_sink_temperature_decode, double, int16_t,
         FIELDSCRIBE_WITH("temperature_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_heat_sink_temperature, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_heat_sink_temperature_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_heat_sink_temperature, int16_t,
         int16_t, FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_heat_sink_temperature, int16_t))
@@ -729,16 +704,15 @@ static void point_heat_sink_temperature(fieldscribe_vector *v)
 
 static void point_transformer_temperature(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_TRANSFORMER_TEMPERATURE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_TRANSFORMER_TEMPERATURE) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_CODE("TmpTrns") FIELDSCRIBE_REFERENCE("register", 40105))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_TRANSFORMER_TEMPERATURE, "holding", 1U, "TmpTrns",
+        FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_REFERENCE("register", 40105))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_transformer_temperature_decode, double, int16_t,
         FIELDSCRIBE_WITH("temperature_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_transformer_temperature, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_transformer_temperature_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_transformer_temperature, int16_t,
         int16_t, FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_transformer_temperature, int16_t))
@@ -749,16 +723,15 @@ static void point_transformer_temperature(fieldscribe_vector *v)
 
 static void point_other_temperature(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_OTHER_TEMPERATURE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_OTHER_TEMPERATURE) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_CODE("TmpOt") FIELDSCRIBE_REFERENCE("register", 40106))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_OTHER_TEMPERATURE, "holding", 1U, "TmpOt", FIELDSCRIBE_ONLY_READ((-32767),
+        32767) FIELDSCRIBE_REFERENCE("register", 40106))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_other_temperature_decode, double, int16_t,
         FIELDSCRIBE_WITH("temperature_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_other_temperature, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_other_temperature_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_other_temperature, int16_t, int16_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_other_temperature,
         int16_t))
@@ -769,15 +742,14 @@ static void point_other_temperature(fieldscribe_vector *v)
 
 static void point_temperature_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_TEMPERATURE_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_TEMPERATURE_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("Tmp_SF") FIELDSCRIBE_REFERENCE("register", 40107))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_TEMPERATURE_EXPONENT, "holding", 1U, "Tmp_SF", FIELDSCRIBE_ONLY_READ((-10),
+        10) FIELDSCRIBE_REFERENCE("register", 40107))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_temperature_exponent_decode, int32_t, int16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_temperature_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_temperature_exponent_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_temperature_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_temperature_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -788,8 +760,7 @@ static void point_temperature_exponent(fieldscribe_vector *v)
 
 static void point_operating_state(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_OPERATING_STATE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_OPERATING_STATE) FIELDSCRIBE_ONLY_READ(1, 8) FIELDSCRIBE_CODE("St")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_OPERATING_STATE, "holding", 1U, "St", FIELDSCRIBE_ONLY_READ(1, 8)
         FIELDSCRIBE_REFERENCE("register", 40108))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_operating_state_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_NAME(fronius_datamanager_operating_state_name, int32_t)
@@ -804,8 +775,8 @@ static void point_operating_state(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_operating_state_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_operating_state, int32_t, uint16_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, (int)fronius_datamanager_operating_state_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -816,9 +787,8 @@ static void point_operating_state(fieldscribe_vector *v)
 
 static void point_vendor_operating_state(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_VENDOR_OPERATING_STATE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_VENDOR_OPERATING_STATE) FIELDSCRIBE_ONLY_READ(1, 13)
-        FIELDSCRIBE_CODE("StVnd") FIELDSCRIBE_REFERENCE("register", 40109))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_VENDOR_OPERATING_STATE, "holding", 1U, "StVnd", FIELDSCRIBE_ONLY_READ(1, 13)
+        FIELDSCRIBE_REFERENCE("register", 40109))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_vendor_operating_state_decode, int32_t, uint16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_NAME(fronius_datamanager_vendor_operating_state_name, int32_t)
@@ -838,8 +808,8 @@ static void point_vendor_operating_state(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_vendor_operating_state_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_vendor_operating_state, int32_t,
         uint16_t, FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_vendor_operating_state_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -850,66 +820,33 @@ static void point_vendor_operating_state(fieldscribe_vector *v)
 
 static void point_events_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_EVENTS_1, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_EVENTS_1) FIELDSCRIBE_ONLY_READ(0, 4294967294) FIELDSCRIBE_CODE("Evt1")
-        FIELDSCRIBE_REFERENCE("register", 40110))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_EVENTS_1, "holding", FRONIUS_DATAMANAGER_EVENTS_1_WORDS, "Evt1",
+        FIELDSCRIBE_ONLY_READ(0, 4294967294) FIELDSCRIBE_REFERENCE("register", 40110))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_events_1_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_events_1, uint32_t, 2U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_events_1_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u32)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_events_1, int64_t, uint32_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, (int)fronius_datamanager_events_1_decode(raw
         FIELDSCRIBE_ALONE, &number))
-    FIELDSCRIBE_TRUTH("ground_fault", (((uint32_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_EVENTS_1_GROUND_FAULT_MASK) != 0U, ((((uint32_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_EVENTS_1_GROUND_FAULT_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("dc_over_voltage", (((uint32_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_EVENTS_1_DC_OVER_VOLTAGE_MASK) != 0U, ((((uint32_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_EVENTS_1_DC_OVER_VOLTAGE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("ac_disconnect", (((uint32_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_EVENTS_1_AC_DISCONNECT_MASK) != 0U, ((((uint32_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_EVENTS_1_AC_DISCONNECT_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("dc_disconnect", (((uint32_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_EVENTS_1_DC_DISCONNECT_MASK) != 0U, ((((uint32_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_EVENTS_1_DC_DISCONNECT_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("grid_disconnect", (((uint32_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_EVENTS_1_GRID_DISCONNECT_MASK) != 0U, ((((uint32_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_EVENTS_1_GRID_DISCONNECT_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("cabinet_open", (((uint32_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_EVENTS_1_CABINET_OPEN_MASK) != 0U, ((((uint32_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_EVENTS_1_CABINET_OPEN_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("manual_shutdown", (((uint32_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_EVENTS_1_MANUAL_SHUTDOWN_MASK) != 0U, ((((uint32_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_EVENTS_1_MANUAL_SHUTDOWN_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("over_temperature", (((uint32_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_EVENTS_1_OVER_TEMPERATURE_MASK) != 0U, ((((uint32_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_EVENTS_1_OVER_TEMPERATURE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("over_frequency", (((uint32_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_EVENTS_1_OVER_FREQUENCY_MASK) != 0U, ((((uint32_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_EVENTS_1_OVER_FREQUENCY_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("under_frequency", (((uint32_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_EVENTS_1_UNDER_FREQUENCY_MASK) != 0U, ((((uint32_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_EVENTS_1_UNDER_FREQUENCY_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("ac_over_voltage", (((uint32_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_EVENTS_1_AC_OVER_VOLTAGE_MASK) != 0U, ((((uint32_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_EVENTS_1_AC_OVER_VOLTAGE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("ac_under_voltage", (((uint32_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_EVENTS_1_AC_UNDER_VOLTAGE_MASK) != 0U, ((((uint32_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_EVENTS_1_AC_UNDER_VOLTAGE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("blown_string_fuse", (((uint32_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_EVENTS_1_BLOWN_STRING_FUSE_MASK) != 0U, ((((uint32_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_EVENTS_1_BLOWN_STRING_FUSE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("under_temperature", (((uint32_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_EVENTS_1_UNDER_TEMPERATURE_MASK) != 0U, ((((uint32_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_EVENTS_1_UNDER_TEMPERATURE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("memory_loss", (((uint32_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_EVENTS_1_MEMORY_LOSS_MASK) != 0U, ((((uint32_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_EVENTS_1_MEMORY_LOSS_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("hardware_test_failure", (((uint32_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_EVENTS_1_HARDWARE_TEST_FAILURE_MASK) != 0U, ((((uint32_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_EVENTS_1_HARDWARE_TEST_FAILURE_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("ground_fault", uint32_t, FRONIUS_DATAMANAGER_EVENTS_1_GROUND_FAULT_MASK, 0U)
+    FIELDSCRIBE_TRUTH("dc_over_voltage", uint32_t, FRONIUS_DATAMANAGER_EVENTS_1_DC_OVER_VOLTAGE_MASK, 0U)
+    FIELDSCRIBE_TRUTH("ac_disconnect", uint32_t, FRONIUS_DATAMANAGER_EVENTS_1_AC_DISCONNECT_MASK, 0U)
+    FIELDSCRIBE_TRUTH("dc_disconnect", uint32_t, FRONIUS_DATAMANAGER_EVENTS_1_DC_DISCONNECT_MASK, 0U)
+    FIELDSCRIBE_TRUTH("grid_disconnect", uint32_t, FRONIUS_DATAMANAGER_EVENTS_1_GRID_DISCONNECT_MASK, 0U)
+    FIELDSCRIBE_TRUTH("cabinet_open", uint32_t, FRONIUS_DATAMANAGER_EVENTS_1_CABINET_OPEN_MASK, 0U)
+    FIELDSCRIBE_TRUTH("manual_shutdown", uint32_t, FRONIUS_DATAMANAGER_EVENTS_1_MANUAL_SHUTDOWN_MASK, 0U)
+    FIELDSCRIBE_TRUTH("over_temperature", uint32_t, FRONIUS_DATAMANAGER_EVENTS_1_OVER_TEMPERATURE_MASK, 0U)
+    FIELDSCRIBE_TRUTH("over_frequency", uint32_t, FRONIUS_DATAMANAGER_EVENTS_1_OVER_FREQUENCY_MASK, 0U)
+    FIELDSCRIBE_TRUTH("under_frequency", uint32_t, FRONIUS_DATAMANAGER_EVENTS_1_UNDER_FREQUENCY_MASK, 0U)
+    FIELDSCRIBE_TRUTH("ac_over_voltage", uint32_t, FRONIUS_DATAMANAGER_EVENTS_1_AC_OVER_VOLTAGE_MASK, 0U)
+    FIELDSCRIBE_TRUTH("ac_under_voltage", uint32_t, FRONIUS_DATAMANAGER_EVENTS_1_AC_UNDER_VOLTAGE_MASK, 0U)
+    FIELDSCRIBE_TRUTH("blown_string_fuse", uint32_t, FRONIUS_DATAMANAGER_EVENTS_1_BLOWN_STRING_FUSE_MASK, 0U)
+    FIELDSCRIBE_TRUTH("under_temperature", uint32_t, FRONIUS_DATAMANAGER_EVENTS_1_UNDER_TEMPERATURE_MASK, 0U)
+    FIELDSCRIBE_TRUTH("memory_loss", uint32_t, FRONIUS_DATAMANAGER_EVENTS_1_MEMORY_LOSS_MASK, 0U)
+    FIELDSCRIBE_TRUTH("hardware_test_failure", uint32_t, FRONIUS_DATAMANAGER_EVENTS_1_HARDWARE_TEST_FAILURE_MASK, 0U)
     FIELDSCRIBE_SPECIAL("not_implemented", FRONIUS_DATAMANAGER_INVERTER_U32_NOT_IMPLEMENTED,
         FRONIUS_DATAMANAGER_INVERTER_U32_NOT_IMPLEMENTED)
     FIELDSCRIBE_SPECIAL_NAME(fronius_datamanager_events_1, uint32_t)
@@ -917,15 +854,14 @@ static void point_events_1(fieldscribe_vector *v)
 
 static void point_events_2(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_EVENTS_2, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_EVENTS_2) FIELDSCRIBE_ONLY_READ(0, 4294967294) FIELDSCRIBE_CODE("Evt2")
-        FIELDSCRIBE_REFERENCE("register", 40112))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_EVENTS_2, "holding", FRONIUS_DATAMANAGER_EVENTS_2_WORDS, "Evt2",
+        FIELDSCRIBE_ONLY_READ(0, 4294967294) FIELDSCRIBE_REFERENCE("register", 40112))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_events_2_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_events_2, uint32_t, 2U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_events_2_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u32)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_events_2, int64_t, uint32_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, (int)fronius_datamanager_events_2_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -936,15 +872,14 @@ static void point_events_2(fieldscribe_vector *v)
 
 static void point_vendor_events_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_VENDOR_EVENTS_1, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_VENDOR_EVENTS_1) FIELDSCRIBE_ONLY_READ(0, 4294967294)
-        FIELDSCRIBE_CODE("EvtVnd1") FIELDSCRIBE_REFERENCE("register", 40114))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_VENDOR_EVENTS_1, "holding", FRONIUS_DATAMANAGER_VENDOR_EVENTS_1_WORDS,
+        "EvtVnd1", FIELDSCRIBE_ONLY_READ(0, 4294967294) FIELDSCRIBE_REFERENCE("register", 40114))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_vendor_events_1_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_vendor_events_1, uint32_t, 2U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_vendor_events_1_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u32)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_vendor_events_1, int64_t, uint32_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, (int)fronius_datamanager_vendor_events_1_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -955,15 +890,14 @@ static void point_vendor_events_1(fieldscribe_vector *v)
 
 static void point_vendor_events_2(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_VENDOR_EVENTS_2, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_VENDOR_EVENTS_2) FIELDSCRIBE_ONLY_READ(0, 4294967294)
-        FIELDSCRIBE_CODE("EvtVnd2") FIELDSCRIBE_REFERENCE("register", 40116))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_VENDOR_EVENTS_2, "holding", FRONIUS_DATAMANAGER_VENDOR_EVENTS_2_WORDS,
+        "EvtVnd2", FIELDSCRIBE_ONLY_READ(0, 4294967294) FIELDSCRIBE_REFERENCE("register", 40116))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_vendor_events_2_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_vendor_events_2, uint32_t, 2U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_vendor_events_2_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u32)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_vendor_events_2, int64_t, uint32_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, (int)fronius_datamanager_vendor_events_2_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -974,15 +908,14 @@ static void point_vendor_events_2(fieldscribe_vector *v)
 
 static void point_vendor_events_3(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_VENDOR_EVENTS_3, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_VENDOR_EVENTS_3) FIELDSCRIBE_ONLY_READ(0, 4294967294)
-        FIELDSCRIBE_CODE("EvtVnd3") FIELDSCRIBE_REFERENCE("register", 40118))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_VENDOR_EVENTS_3, "holding", FRONIUS_DATAMANAGER_VENDOR_EVENTS_3_WORDS,
+        "EvtVnd3", FIELDSCRIBE_ONLY_READ(0, 4294967294) FIELDSCRIBE_REFERENCE("register", 40118))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_vendor_events_3_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_vendor_events_3, uint32_t, 2U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_vendor_events_3_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u32)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_vendor_events_3, int64_t, uint32_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, (int)fronius_datamanager_vendor_events_3_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -993,15 +926,14 @@ static void point_vendor_events_3(fieldscribe_vector *v)
 
 static void point_vendor_events_4(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_VENDOR_EVENTS_4, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_VENDOR_EVENTS_4) FIELDSCRIBE_ONLY_READ(0, 4294967294)
-        FIELDSCRIBE_CODE("EvtVnd4") FIELDSCRIBE_REFERENCE("register", 40120))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_VENDOR_EVENTS_4, "holding", FRONIUS_DATAMANAGER_VENDOR_EVENTS_4_WORDS,
+        "EvtVnd4", FIELDSCRIBE_ONLY_READ(0, 4294967294) FIELDSCRIBE_REFERENCE("register", 40120))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_vendor_events_4_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_vendor_events_4, uint32_t, 2U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_vendor_events_4_frame, "models_103")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u32)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_vendor_events_4, int64_t, uint32_t,
         FIELDSCRIBE_BASE("models_103") FIELDSCRIBE_ALONE, (int)fronius_datamanager_vendor_events_4_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -1012,8 +944,7 @@ static void point_vendor_events_4(fieldscribe_vector *v)
 
 static void point_der_type(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_DER_TYPE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_DER_TYPE) FIELDSCRIBE_ONLY_READ(0, 65534) FIELDSCRIBE_CODE("DERTyp")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_DER_TYPE, "holding", 1U, "DERTyp", FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40124))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_der_type_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_NAME(fronius_datamanager_der_type_name, int32_t)
@@ -1021,8 +952,8 @@ static void point_der_type(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_der_type_frame, "models_120")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_der_type, int32_t, uint16_t,
         FIELDSCRIBE_BASE("models_120") FIELDSCRIBE_ALONE, (int)fronius_datamanager_der_type_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -1033,16 +964,15 @@ static void point_der_type(fieldscribe_vector *v)
 
 static void point_rated_power(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_POWER, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_RATED_POWER) FIELDSCRIBE_ONLY_READ(0, 65534) FIELDSCRIBE_CODE("WRtg")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_POWER, "holding", 1U, "WRtg", FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40125))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_rated_power_decode, double, uint16_t,
         FIELDSCRIBE_WITH("rated_power_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_rated_power_frame, "models_120")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_rated_power, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_120") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_rated_power,
         uint16_t))
@@ -1053,15 +983,14 @@ static void point_rated_power(fieldscribe_vector *v)
 
 static void point_rated_power_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_POWER_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_RATED_POWER_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("WRtg_SF") FIELDSCRIBE_REFERENCE("register", 40126))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_POWER_EXPONENT, "holding", 1U, "WRtg_SF", FIELDSCRIBE_ONLY_READ((-10),
+        10) FIELDSCRIBE_REFERENCE("register", 40126))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_rated_power_exponent_decode, int32_t, int16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_rated_power_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_rated_power_exponent_frame, "models_120")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_rated_power_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_120") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_rated_power_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -1072,16 +1001,15 @@ static void point_rated_power_exponent(fieldscribe_vector *v)
 
 static void point_rated_apparent_power(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_APPARENT_POWER, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_RATED_APPARENT_POWER) FIELDSCRIBE_ONLY_READ(0, 65534)
-        FIELDSCRIBE_CODE("VARtg") FIELDSCRIBE_REFERENCE("register", 40127))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_APPARENT_POWER, "holding", 1U, "VARtg", FIELDSCRIBE_ONLY_READ(0,
+        65534) FIELDSCRIBE_REFERENCE("register", 40127))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_rated_apparent_power_decode, double, uint16_t,
         FIELDSCRIBE_WITH("rated_apparent_power_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_rated_apparent_power_frame, "models_120")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_rated_apparent_power, uint16_t,
         uint16_t, FIELDSCRIBE_BASE("models_120") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_rated_apparent_power, uint16_t))
@@ -1092,16 +1020,15 @@ static void point_rated_apparent_power(fieldscribe_vector *v)
 
 static void point_rated_apparent_power_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_APPARENT_POWER_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_RATED_APPARENT_POWER_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("VARtg_SF") FIELDSCRIBE_REFERENCE("register", 40128))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_APPARENT_POWER_EXPONENT, "holding", 1U, "VARtg_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40128))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_rated_apparent_power_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_rated_apparent_power_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_rated_apparent_power_exponent_frame, "models_120")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_rated_apparent_power_exponent,
         int32_t, int16_t, FIELDSCRIBE_BASE("models_120") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_rated_apparent_power_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -1112,16 +1039,15 @@ static void point_rated_apparent_power_exponent(fieldscribe_vector *v)
 
 static void point_rated_reactive_power_q1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_REACTIVE_POWER_Q1, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_RATED_REACTIVE_POWER_Q1) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_CODE("VArRtgQ1") FIELDSCRIBE_REFERENCE("register", 40129))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_REACTIVE_POWER_Q1, "holding", 1U, "VArRtgQ1",
+        FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_REFERENCE("register", 40129))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_rated_reactive_power_q1_decode, double, int16_t,
         FIELDSCRIBE_WITH("rated_reactive_power_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_rated_reactive_power_q1, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_rated_reactive_power_q1_frame, "models_120")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_rated_reactive_power_q1, int16_t,
         int16_t, FIELDSCRIBE_BASE("models_120") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_rated_reactive_power_q1, int16_t))
@@ -1132,16 +1058,15 @@ static void point_rated_reactive_power_q1(fieldscribe_vector *v)
 
 static void point_rated_reactive_power_q2(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_REACTIVE_POWER_Q2, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_RATED_REACTIVE_POWER_Q2) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_CODE("VArRtgQ2") FIELDSCRIBE_REFERENCE("register", 40130))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_REACTIVE_POWER_Q2, "holding", 1U, "VArRtgQ2",
+        FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_REFERENCE("register", 40130))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_rated_reactive_power_q2_decode, double, int16_t,
         FIELDSCRIBE_WITH("rated_reactive_power_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_rated_reactive_power_q2, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_rated_reactive_power_q2_frame, "models_120")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_rated_reactive_power_q2, int16_t,
         int16_t, FIELDSCRIBE_BASE("models_120") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_rated_reactive_power_q2, int16_t))
@@ -1152,16 +1077,15 @@ static void point_rated_reactive_power_q2(fieldscribe_vector *v)
 
 static void point_rated_reactive_power_q3(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_REACTIVE_POWER_Q3, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_RATED_REACTIVE_POWER_Q3) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_CODE("VArRtgQ3") FIELDSCRIBE_REFERENCE("register", 40131))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_REACTIVE_POWER_Q3, "holding", 1U, "VArRtgQ3",
+        FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_REFERENCE("register", 40131))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_rated_reactive_power_q3_decode, double, int16_t,
         FIELDSCRIBE_WITH("rated_reactive_power_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_rated_reactive_power_q3, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_rated_reactive_power_q3_frame, "models_120")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_rated_reactive_power_q3, int16_t,
         int16_t, FIELDSCRIBE_BASE("models_120") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_rated_reactive_power_q3, int16_t))
@@ -1172,16 +1096,15 @@ static void point_rated_reactive_power_q3(fieldscribe_vector *v)
 
 static void point_rated_reactive_power_q4(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_REACTIVE_POWER_Q4, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_RATED_REACTIVE_POWER_Q4) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_CODE("VArRtgQ4") FIELDSCRIBE_REFERENCE("register", 40132))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_REACTIVE_POWER_Q4, "holding", 1U, "VArRtgQ4",
+        FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_REFERENCE("register", 40132))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_rated_reactive_power_q4_decode, double, int16_t,
         FIELDSCRIBE_WITH("rated_reactive_power_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_rated_reactive_power_q4, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_rated_reactive_power_q4_frame, "models_120")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_rated_reactive_power_q4, int16_t,
         int16_t, FIELDSCRIBE_BASE("models_120") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_rated_reactive_power_q4, int16_t))
@@ -1192,16 +1115,15 @@ static void point_rated_reactive_power_q4(fieldscribe_vector *v)
 
 static void point_rated_reactive_power_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_REACTIVE_POWER_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_RATED_REACTIVE_POWER_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("VArRtg_SF") FIELDSCRIBE_REFERENCE("register", 40133))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_REACTIVE_POWER_EXPONENT, "holding", 1U, "VArRtg_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40133))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_rated_reactive_power_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_rated_reactive_power_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_rated_reactive_power_exponent_frame, "models_120")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_rated_reactive_power_exponent,
         int32_t, int16_t, FIELDSCRIBE_BASE("models_120") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_rated_reactive_power_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -1212,16 +1134,15 @@ static void point_rated_reactive_power_exponent(fieldscribe_vector *v)
 
 static void point_rated_current(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_CURRENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_RATED_CURRENT) FIELDSCRIBE_ONLY_READ(0, 65534) FIELDSCRIBE_CODE("ARtg")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_CURRENT, "holding", 1U, "ARtg", FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40134))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_rated_current_decode, double, uint16_t,
         FIELDSCRIBE_WITH("rated_current_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_rated_current_frame, "models_120")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_rated_current, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_120") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_rated_current,
         uint16_t))
@@ -1232,15 +1153,14 @@ static void point_rated_current(fieldscribe_vector *v)
 
 static void point_rated_current_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_CURRENT_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_RATED_CURRENT_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("ARtg_SF") FIELDSCRIBE_REFERENCE("register", 40135))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_CURRENT_EXPONENT, "holding", 1U, "ARtg_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40135))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_rated_current_exponent_decode, int32_t, int16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_rated_current_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_rated_current_exponent_frame, "models_120")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_rated_current_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_120") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_rated_current_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -1251,16 +1171,15 @@ static void point_rated_current_exponent(fieldscribe_vector *v)
 
 static void point_rated_power_factor_q1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_POWER_FACTOR_Q1, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_RATED_POWER_FACTOR_Q1) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_CODE("PFRtgQ1") FIELDSCRIBE_REFERENCE("register", 40136))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_POWER_FACTOR_Q1, "holding", 1U, "PFRtgQ1",
+        FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_REFERENCE("register", 40136))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_rated_power_factor_q1_decode, double, int16_t,
         FIELDSCRIBE_WITH("rated_power_factor_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_rated_power_factor_q1, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_rated_power_factor_q1_frame, "models_120")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_rated_power_factor_q1, int16_t,
         int16_t, FIELDSCRIBE_BASE("models_120") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_rated_power_factor_q1, int16_t))
@@ -1271,16 +1190,15 @@ static void point_rated_power_factor_q1(fieldscribe_vector *v)
 
 static void point_rated_power_factor_q2(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_POWER_FACTOR_Q2, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_RATED_POWER_FACTOR_Q2) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_CODE("PFRtgQ2") FIELDSCRIBE_REFERENCE("register", 40137))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_POWER_FACTOR_Q2, "holding", 1U, "PFRtgQ2",
+        FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_REFERENCE("register", 40137))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_rated_power_factor_q2_decode, double, int16_t,
         FIELDSCRIBE_WITH("rated_power_factor_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_rated_power_factor_q2, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_rated_power_factor_q2_frame, "models_120")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_rated_power_factor_q2, int16_t,
         int16_t, FIELDSCRIBE_BASE("models_120") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_rated_power_factor_q2, int16_t))
@@ -1291,16 +1209,15 @@ static void point_rated_power_factor_q2(fieldscribe_vector *v)
 
 static void point_rated_power_factor_q3(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_POWER_FACTOR_Q3, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_RATED_POWER_FACTOR_Q3) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_CODE("PFRtgQ3") FIELDSCRIBE_REFERENCE("register", 40138))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_POWER_FACTOR_Q3, "holding", 1U, "PFRtgQ3",
+        FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_REFERENCE("register", 40138))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_rated_power_factor_q3_decode, double, int16_t,
         FIELDSCRIBE_WITH("rated_power_factor_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_rated_power_factor_q3, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_rated_power_factor_q3_frame, "models_120")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_rated_power_factor_q3, int16_t,
         int16_t, FIELDSCRIBE_BASE("models_120") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_rated_power_factor_q3, int16_t))
@@ -1311,16 +1228,15 @@ static void point_rated_power_factor_q3(fieldscribe_vector *v)
 
 static void point_rated_power_factor_q4(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_POWER_FACTOR_Q4, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_RATED_POWER_FACTOR_Q4) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_CODE("PFRtgQ4") FIELDSCRIBE_REFERENCE("register", 40139))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_POWER_FACTOR_Q4, "holding", 1U, "PFRtgQ4",
+        FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_REFERENCE("register", 40139))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_rated_power_factor_q4_decode, double, int16_t,
         FIELDSCRIBE_WITH("rated_power_factor_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_rated_power_factor_q4, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_rated_power_factor_q4_frame, "models_120")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_rated_power_factor_q4, int16_t,
         int16_t, FIELDSCRIBE_BASE("models_120") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_rated_power_factor_q4, int16_t))
@@ -1331,16 +1247,15 @@ static void point_rated_power_factor_q4(fieldscribe_vector *v)
 
 static void point_rated_power_factor_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_POWER_FACTOR_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_RATED_POWER_FACTOR_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("PFRtg_SF") FIELDSCRIBE_REFERENCE("register", 40140))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_POWER_FACTOR_EXPONENT, "holding", 1U, "PFRtg_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40140))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_rated_power_factor_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_rated_power_factor_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_rated_power_factor_exponent_frame, "models_120")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_rated_power_factor_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_120") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_rated_power_factor_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -1351,16 +1266,15 @@ static void point_rated_power_factor_exponent(fieldscribe_vector *v)
 
 static void point_rated_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_ENERGY, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_RATED_ENERGY) FIELDSCRIBE_ONLY_READ(0, 65534) FIELDSCRIBE_CODE("WHRtg")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_ENERGY, "holding", 1U, "WHRtg", FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40141))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_rated_energy_decode, double, uint16_t,
         FIELDSCRIBE_WITH("rated_energy_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_rated_energy_frame, "models_120")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_rated_energy, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_120") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_rated_energy,
         uint16_t))
@@ -1371,15 +1285,14 @@ static void point_rated_energy(fieldscribe_vector *v)
 
 static void point_rated_energy_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_ENERGY_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_RATED_ENERGY_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("WHRtg_SF") FIELDSCRIBE_REFERENCE("register", 40142))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_ENERGY_EXPONENT, "holding", 1U, "WHRtg_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40142))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_rated_energy_exponent_decode, int32_t, int16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_rated_energy_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_rated_energy_exponent_frame, "models_120")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_rated_energy_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_120") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_rated_energy_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -1390,16 +1303,15 @@ static void point_rated_energy_exponent(fieldscribe_vector *v)
 
 static void point_rated_charge(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_CHARGE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_RATED_CHARGE) FIELDSCRIBE_ONLY_READ(0, 65534) FIELDSCRIBE_CODE("AhrRtg")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_CHARGE, "holding", 1U, "AhrRtg", FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40143))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_rated_charge_decode, double, uint16_t,
         FIELDSCRIBE_WITH("rated_charge_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_rated_charge_frame, "models_120")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_rated_charge, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_120") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_rated_charge,
         uint16_t))
@@ -1410,15 +1322,14 @@ static void point_rated_charge(fieldscribe_vector *v)
 
 static void point_rated_charge_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_CHARGE_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_RATED_CHARGE_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("AhrRtg_SF") FIELDSCRIBE_REFERENCE("register", 40144))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RATED_CHARGE_EXPONENT, "holding", 1U, "AhrRtg_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40144))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_rated_charge_exponent_decode, int32_t, int16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_rated_charge_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_rated_charge_exponent_frame, "models_120")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_rated_charge_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_120") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_rated_charge_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -1429,16 +1340,15 @@ static void point_rated_charge_exponent(fieldscribe_vector *v)
 
 static void point_maximum_charge_rate(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_CHARGE_RATE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MAXIMUM_CHARGE_RATE) FIELDSCRIBE_ONLY_READ(0, 65534)
-        FIELDSCRIBE_CODE("MaxChaRte") FIELDSCRIBE_REFERENCE("register", 40145))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_CHARGE_RATE, "holding", 1U, "MaxChaRte", FIELDSCRIBE_ONLY_READ(0,
+        65534) FIELDSCRIBE_REFERENCE("register", 40145))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_maximum_charge_rate_decode, double, uint16_t,
         FIELDSCRIBE_WITH("maximum_charge_rate_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_maximum_charge_rate_frame, "models_120")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_maximum_charge_rate, uint16_t,
         uint16_t, FIELDSCRIBE_BASE("models_120") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_maximum_charge_rate, uint16_t))
@@ -1449,16 +1359,15 @@ static void point_maximum_charge_rate(fieldscribe_vector *v)
 
 static void point_maximum_charge_rate_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_CHARGE_RATE_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MAXIMUM_CHARGE_RATE_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("MaxChaRte_SF") FIELDSCRIBE_REFERENCE("register", 40146))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_CHARGE_RATE_EXPONENT, "holding", 1U, "MaxChaRte_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40146))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_maximum_charge_rate_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_maximum_charge_rate_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_maximum_charge_rate_exponent_frame, "models_120")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_maximum_charge_rate_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_120") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_maximum_charge_rate_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -1469,16 +1378,15 @@ static void point_maximum_charge_rate_exponent(fieldscribe_vector *v)
 
 static void point_maximum_discharge_rate(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_DISCHARGE_RATE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MAXIMUM_DISCHARGE_RATE) FIELDSCRIBE_ONLY_READ(0, 65534)
-        FIELDSCRIBE_CODE("MaxDisChaRte") FIELDSCRIBE_REFERENCE("register", 40147))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_DISCHARGE_RATE, "holding", 1U, "MaxDisChaRte",
+        FIELDSCRIBE_ONLY_READ(0, 65534) FIELDSCRIBE_REFERENCE("register", 40147))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_maximum_discharge_rate_decode, double, uint16_t,
         FIELDSCRIBE_WITH("maximum_discharge_rate_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_maximum_discharge_rate_frame, "models_120")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_maximum_discharge_rate, uint16_t,
         uint16_t, FIELDSCRIBE_BASE("models_120") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_maximum_discharge_rate, uint16_t))
@@ -1489,16 +1397,15 @@ static void point_maximum_discharge_rate(fieldscribe_vector *v)
 
 static void point_maximum_discharge_rate_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_DISCHARGE_RATE_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MAXIMUM_DISCHARGE_RATE_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("MaxDisChaRte_SF") FIELDSCRIBE_REFERENCE("register", 40148))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_DISCHARGE_RATE_EXPONENT, "holding", 1U, "MaxDisChaRte_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40148))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_maximum_discharge_rate_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_maximum_discharge_rate_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_maximum_discharge_rate_exponent_frame, "models_120")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_maximum_discharge_rate_exponent,
         int32_t, int16_t, FIELDSCRIBE_BASE("models_120") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_maximum_discharge_rate_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -1509,9 +1416,8 @@ static void point_maximum_discharge_rate_exponent(fieldscribe_vector *v)
 
 static void point_maximum_power(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_POWER, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MAXIMUM_POWER) FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_MAXIMUM_POWER)
-        FIELDSCRIBE_CODE("WMax") FIELDSCRIBE_REFERENCE("register", 40152))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_POWER, "holding", 1U, "WMax",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_MAXIMUM_POWER) FIELDSCRIBE_REFERENCE("register", 40152))
     FIELDSCRIBE_CHECK(fronius_datamanager_maximum_power_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE(fronius_datamanager_maximum_power_encode, double, uint16_t,
         FIELDSCRIBE_WITH("maximum_power_exponent", int16_t))
@@ -1521,9 +1427,7 @@ static void point_maximum_power(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_maximum_power_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
-    FIELDSCRIBE_WRITE(moved, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_maximum_power, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_maximum_power,
         uint16_t))
@@ -1538,9 +1442,8 @@ static void point_maximum_power(fieldscribe_vector *v)
 
 static void point_reference_voltage(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REFERENCE_VOLTAGE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_REFERENCE_VOLTAGE) FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_REFERENCE_VOLTAGE)
-        FIELDSCRIBE_CODE("VRef") FIELDSCRIBE_REFERENCE("register", 40153))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REFERENCE_VOLTAGE, "holding", 1U, "VRef",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_REFERENCE_VOLTAGE) FIELDSCRIBE_REFERENCE("register", 40153))
     FIELDSCRIBE_CHECK(fronius_datamanager_reference_voltage_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE(fronius_datamanager_reference_voltage_encode, double, uint16_t,
         FIELDSCRIBE_WITH("reference_voltage_exponent", int16_t))
@@ -1550,9 +1453,7 @@ static void point_reference_voltage(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_reference_voltage_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
-    FIELDSCRIBE_WRITE(moved, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_reference_voltage, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_reference_voltage,
         uint16_t))
@@ -1567,10 +1468,8 @@ static void point_reference_voltage(fieldscribe_vector *v)
 
 static void point_reference_voltage_offset(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REFERENCE_VOLTAGE_OFFSET, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_REFERENCE_VOLTAGE_OFFSET)
-        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_REFERENCE_VOLTAGE_OFFSET) FIELDSCRIBE_CODE("VRefOfs")
-        FIELDSCRIBE_REFERENCE("register", 40154))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REFERENCE_VOLTAGE_OFFSET, "holding", 1U, "VRefOfs",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_REFERENCE_VOLTAGE_OFFSET) FIELDSCRIBE_REFERENCE("register", 40154))
     FIELDSCRIBE_CHECK(fronius_datamanager_reference_voltage_offset_check, int16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE(fronius_datamanager_reference_voltage_offset_encode, double, int16_t,
         FIELDSCRIBE_WITH("reference_voltage_offset_exponent", int16_t))
@@ -1580,9 +1479,7 @@ static void point_reference_voltage_offset(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_reference_voltage_offset_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
-    FIELDSCRIBE_WRITE(moved, s16, int16_t)
+    FIELDSCRIBE_READ_WRITE(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_reference_voltage_offset, int16_t,
         int16_t, FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_reference_voltage_offset, int16_t))
@@ -1597,9 +1494,8 @@ static void point_reference_voltage_offset(fieldscribe_vector *v)
 
 static void point_maximum_voltage(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_VOLTAGE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MAXIMUM_VOLTAGE) FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_MAXIMUM_VOLTAGE)
-        FIELDSCRIBE_CODE("VMax") FIELDSCRIBE_REFERENCE("register", 40155))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_VOLTAGE, "holding", 1U, "VMax",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_MAXIMUM_VOLTAGE) FIELDSCRIBE_REFERENCE("register", 40155))
     FIELDSCRIBE_CHECK(fronius_datamanager_maximum_voltage_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE(fronius_datamanager_maximum_voltage_encode, double, uint16_t,
         FIELDSCRIBE_WITH("voltage_limits_exponent", int16_t))
@@ -1609,9 +1505,7 @@ static void point_maximum_voltage(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_maximum_voltage_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
-    FIELDSCRIBE_WRITE(moved, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_maximum_voltage, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_maximum_voltage,
         uint16_t))
@@ -1626,9 +1520,8 @@ static void point_maximum_voltage(fieldscribe_vector *v)
 
 static void point_minimum_voltage(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MINIMUM_VOLTAGE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MINIMUM_VOLTAGE) FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_MINIMUM_VOLTAGE)
-        FIELDSCRIBE_CODE("VMin") FIELDSCRIBE_REFERENCE("register", 40156))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MINIMUM_VOLTAGE, "holding", 1U, "VMin",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_MINIMUM_VOLTAGE) FIELDSCRIBE_REFERENCE("register", 40156))
     FIELDSCRIBE_CHECK(fronius_datamanager_minimum_voltage_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE(fronius_datamanager_minimum_voltage_encode, double, uint16_t,
         FIELDSCRIBE_WITH("voltage_limits_exponent", int16_t))
@@ -1638,9 +1531,7 @@ static void point_minimum_voltage(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_minimum_voltage_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
-    FIELDSCRIBE_WRITE(moved, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_minimum_voltage, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_minimum_voltage,
         uint16_t))
@@ -1655,10 +1546,8 @@ static void point_minimum_voltage(fieldscribe_vector *v)
 
 static void point_maximum_apparent_power(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_APPARENT_POWER, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MAXIMUM_APPARENT_POWER)
-        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_MAXIMUM_APPARENT_POWER) FIELDSCRIBE_CODE("VAMax")
-        FIELDSCRIBE_REFERENCE("register", 40157))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_APPARENT_POWER, "holding", 1U, "VAMax",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_MAXIMUM_APPARENT_POWER) FIELDSCRIBE_REFERENCE("register", 40157))
     FIELDSCRIBE_CHECK(fronius_datamanager_maximum_apparent_power_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE(fronius_datamanager_maximum_apparent_power_encode, double, uint16_t,
         FIELDSCRIBE_WITH("maximum_apparent_power_exponent", int16_t))
@@ -1668,9 +1557,7 @@ static void point_maximum_apparent_power(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_maximum_apparent_power_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
-    FIELDSCRIBE_WRITE(moved, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_maximum_apparent_power, uint16_t,
         uint16_t, FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_maximum_apparent_power, uint16_t))
@@ -1685,16 +1572,15 @@ static void point_maximum_apparent_power(fieldscribe_vector *v)
 
 static void point_maximum_reactive_power_q1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_REACTIVE_POWER_Q1, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MAXIMUM_REACTIVE_POWER_Q1) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_CODE("VARMaxQ1") FIELDSCRIBE_REFERENCE("register", 40158))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_REACTIVE_POWER_Q1, "holding", 1U, "VARMaxQ1",
+        FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_REFERENCE("register", 40158))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_maximum_reactive_power_q1_decode, double, int16_t,
         FIELDSCRIBE_WITH("maximum_reactive_power_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_maximum_reactive_power_q1, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_maximum_reactive_power_q1_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_maximum_reactive_power_q1, int16_t,
         int16_t, FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_maximum_reactive_power_q1, int16_t))
@@ -1705,16 +1591,15 @@ static void point_maximum_reactive_power_q1(fieldscribe_vector *v)
 
 static void point_maximum_reactive_power_q2(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_REACTIVE_POWER_Q2, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MAXIMUM_REACTIVE_POWER_Q2) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_CODE("VARMaxQ2") FIELDSCRIBE_REFERENCE("register", 40159))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_REACTIVE_POWER_Q2, "holding", 1U, "VARMaxQ2",
+        FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_REFERENCE("register", 40159))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_maximum_reactive_power_q2_decode, double, int16_t,
         FIELDSCRIBE_WITH("maximum_reactive_power_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_maximum_reactive_power_q2, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_maximum_reactive_power_q2_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_maximum_reactive_power_q2, int16_t,
         int16_t, FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_maximum_reactive_power_q2, int16_t))
@@ -1725,16 +1610,15 @@ static void point_maximum_reactive_power_q2(fieldscribe_vector *v)
 
 static void point_maximum_reactive_power_q3(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_REACTIVE_POWER_Q3, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MAXIMUM_REACTIVE_POWER_Q3) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_CODE("VARMaxQ3") FIELDSCRIBE_REFERENCE("register", 40160))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_REACTIVE_POWER_Q3, "holding", 1U, "VARMaxQ3",
+        FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_REFERENCE("register", 40160))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_maximum_reactive_power_q3_decode, double, int16_t,
         FIELDSCRIBE_WITH("maximum_reactive_power_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_maximum_reactive_power_q3, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_maximum_reactive_power_q3_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_maximum_reactive_power_q3, int16_t,
         int16_t, FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_maximum_reactive_power_q3, int16_t))
@@ -1745,16 +1629,15 @@ static void point_maximum_reactive_power_q3(fieldscribe_vector *v)
 
 static void point_maximum_reactive_power_q4(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_REACTIVE_POWER_Q4, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MAXIMUM_REACTIVE_POWER_Q4) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_CODE("VARMaxQ4") FIELDSCRIBE_REFERENCE("register", 40161))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_REACTIVE_POWER_Q4, "holding", 1U, "VARMaxQ4",
+        FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_REFERENCE("register", 40161))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_maximum_reactive_power_q4_decode, double, int16_t,
         FIELDSCRIBE_WITH("maximum_reactive_power_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_maximum_reactive_power_q4, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_maximum_reactive_power_q4_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_maximum_reactive_power_q4, int16_t,
         int16_t, FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_maximum_reactive_power_q4, int16_t))
@@ -1765,16 +1648,15 @@ static void point_maximum_reactive_power_q4(fieldscribe_vector *v)
 
 static void point_power_ramp_rate(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_RAMP_RATE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_POWER_RAMP_RATE) FIELDSCRIBE_ONLY_READ(0, 65534) FIELDSCRIBE_CODE("WGra")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_RAMP_RATE, "holding", 1U, "WGra", FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40162))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_power_ramp_rate_decode, double, uint16_t,
         FIELDSCRIBE_WITH("power_ramp_rate_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_power_ramp_rate_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_power_ramp_rate, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_power_ramp_rate,
         uint16_t))
@@ -1785,16 +1667,15 @@ static void point_power_ramp_rate(fieldscribe_vector *v)
 
 static void point_minimum_power_factor_q1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MINIMUM_POWER_FACTOR_Q1, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MINIMUM_POWER_FACTOR_Q1) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_CODE("PFMinQ1") FIELDSCRIBE_REFERENCE("register", 40163))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MINIMUM_POWER_FACTOR_Q1, "holding", 1U, "PFMinQ1",
+        FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_REFERENCE("register", 40163))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_minimum_power_factor_q1_decode, double, int16_t,
         FIELDSCRIBE_WITH("minimum_power_factor_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_minimum_power_factor_q1, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_minimum_power_factor_q1_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_minimum_power_factor_q1, int16_t,
         int16_t, FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_minimum_power_factor_q1, int16_t))
@@ -1805,16 +1686,15 @@ static void point_minimum_power_factor_q1(fieldscribe_vector *v)
 
 static void point_minimum_power_factor_q2(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MINIMUM_POWER_FACTOR_Q2, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MINIMUM_POWER_FACTOR_Q2) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_CODE("PFMinQ2") FIELDSCRIBE_REFERENCE("register", 40164))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MINIMUM_POWER_FACTOR_Q2, "holding", 1U, "PFMinQ2",
+        FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_REFERENCE("register", 40164))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_minimum_power_factor_q2_decode, double, int16_t,
         FIELDSCRIBE_WITH("minimum_power_factor_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_minimum_power_factor_q2, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_minimum_power_factor_q2_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_minimum_power_factor_q2, int16_t,
         int16_t, FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_minimum_power_factor_q2, int16_t))
@@ -1825,16 +1705,15 @@ static void point_minimum_power_factor_q2(fieldscribe_vector *v)
 
 static void point_minimum_power_factor_q3(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MINIMUM_POWER_FACTOR_Q3, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MINIMUM_POWER_FACTOR_Q3) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_CODE("PFMinQ3") FIELDSCRIBE_REFERENCE("register", 40165))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MINIMUM_POWER_FACTOR_Q3, "holding", 1U, "PFMinQ3",
+        FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_REFERENCE("register", 40165))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_minimum_power_factor_q3_decode, double, int16_t,
         FIELDSCRIBE_WITH("minimum_power_factor_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_minimum_power_factor_q3, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_minimum_power_factor_q3_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_minimum_power_factor_q3, int16_t,
         int16_t, FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_minimum_power_factor_q3, int16_t))
@@ -1845,16 +1724,15 @@ static void point_minimum_power_factor_q3(fieldscribe_vector *v)
 
 static void point_minimum_power_factor_q4(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MINIMUM_POWER_FACTOR_Q4, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MINIMUM_POWER_FACTOR_Q4) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_CODE("PFMinQ4") FIELDSCRIBE_REFERENCE("register", 40166))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MINIMUM_POWER_FACTOR_Q4, "holding", 1U, "PFMinQ4",
+        FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_REFERENCE("register", 40166))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_minimum_power_factor_q4_decode, double, int16_t,
         FIELDSCRIBE_WITH("minimum_power_factor_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_minimum_power_factor_q4, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_minimum_power_factor_q4_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_minimum_power_factor_q4, int16_t,
         int16_t, FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_minimum_power_factor_q4, int16_t))
@@ -1865,9 +1743,8 @@ static void point_minimum_power_factor_q4(fieldscribe_vector *v)
 
 static void point_reactive_power_action(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_POWER_ACTION, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_REACTIVE_POWER_ACTION) FIELDSCRIBE_ONLY_READ(1, 2)
-        FIELDSCRIBE_CODE("VArAct") FIELDSCRIBE_REFERENCE("register", 40167))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_POWER_ACTION, "holding", 1U, "VArAct", FIELDSCRIBE_ONLY_READ(1, 2)
+        FIELDSCRIBE_REFERENCE("register", 40167))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_reactive_power_action_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_NAME(fronius_datamanager_reactive_power_action_name, int32_t)
     FIELDSCRIBE_NAMED("maintain", FRONIUS_DATAMANAGER_REACTIVE_POWER_ACTION_MAINTAIN)
@@ -1875,8 +1752,8 @@ static void point_reactive_power_action(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_reactive_power_action_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_reactive_power_action, int32_t,
         uint16_t, FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_reactive_power_action_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -1887,9 +1764,8 @@ static void point_reactive_power_action(fieldscribe_vector *v)
 
 static void point_apparent_power_method(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_APPARENT_POWER_METHOD, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_APPARENT_POWER_METHOD) FIELDSCRIBE_ONLY_READ(1, 2)
-        FIELDSCRIBE_CODE("ClcTotVA") FIELDSCRIBE_REFERENCE("register", 40168))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_APPARENT_POWER_METHOD, "holding", 1U, "ClcTotVA", FIELDSCRIBE_ONLY_READ(1,
+        2) FIELDSCRIBE_REFERENCE("register", 40168))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_apparent_power_method_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_NAME(fronius_datamanager_apparent_power_method_name, int32_t)
     FIELDSCRIBE_NAMED("arithmetic", FRONIUS_DATAMANAGER_APPARENT_POWER_METHOD_ARITHMETIC)
@@ -1897,8 +1773,8 @@ static void point_apparent_power_method(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_apparent_power_method_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_apparent_power_method, int32_t,
         uint16_t, FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_apparent_power_method_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -1909,16 +1785,15 @@ static void point_apparent_power_method(fieldscribe_vector *v)
 
 static void point_maximum_ramp_rate(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_RAMP_RATE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MAXIMUM_RAMP_RATE) FIELDSCRIBE_ONLY_READ(0, 65534)
-        FIELDSCRIBE_CODE("MaxRmpRte") FIELDSCRIBE_REFERENCE("register", 40169))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_RAMP_RATE, "holding", 1U, "MaxRmpRte", FIELDSCRIBE_ONLY_READ(0,
+        65534) FIELDSCRIBE_REFERENCE("register", 40169))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_maximum_ramp_rate_decode, double, uint16_t,
         FIELDSCRIBE_WITH("maximum_ramp_rate_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_maximum_ramp_rate_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_maximum_ramp_rate, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_maximum_ramp_rate,
         uint16_t))
@@ -1929,16 +1804,15 @@ static void point_maximum_ramp_rate(fieldscribe_vector *v)
 
 static void point_nominal_frequency(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_NOMINAL_FREQUENCY, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_NOMINAL_FREQUENCY) FIELDSCRIBE_ONLY_READ(0, 65534)
-        FIELDSCRIBE_CODE("ECPNomHz") FIELDSCRIBE_REFERENCE("register", 40170))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_NOMINAL_FREQUENCY, "holding", 1U, "ECPNomHz", FIELDSCRIBE_ONLY_READ(0,
+        65534) FIELDSCRIBE_REFERENCE("register", 40170))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_nominal_frequency_decode, double, uint16_t,
         FIELDSCRIBE_WITH("nominal_frequency_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_nominal_frequency_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_nominal_frequency, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_nominal_frequency,
         uint16_t))
@@ -1949,8 +1823,7 @@ static void point_nominal_frequency(fieldscribe_vector *v)
 
 static void point_connected_phase(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_CONNECTED_PHASE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_CONNECTED_PHASE) FIELDSCRIBE_ONLY_READ(1, 3) FIELDSCRIBE_CODE("ConnPh")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_CONNECTED_PHASE, "holding", 1U, "ConnPh", FIELDSCRIBE_ONLY_READ(1, 3)
         FIELDSCRIBE_REFERENCE("register", 40171))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_connected_phase_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_NAME(fronius_datamanager_connected_phase_name, int32_t)
@@ -1960,8 +1833,8 @@ static void point_connected_phase(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_connected_phase_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_connected_phase, int32_t, uint16_t,
         FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE, (int)fronius_datamanager_connected_phase_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -1972,15 +1845,14 @@ static void point_connected_phase(fieldscribe_vector *v)
 
 static void point_maximum_power_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_POWER_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MAXIMUM_POWER_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("WMax_SF") FIELDSCRIBE_REFERENCE("register", 40172))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_POWER_EXPONENT, "holding", 1U, "WMax_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40172))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_maximum_power_exponent_decode, int32_t, int16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_maximum_power_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_maximum_power_exponent_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_maximum_power_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_maximum_power_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -1991,16 +1863,15 @@ static void point_maximum_power_exponent(fieldscribe_vector *v)
 
 static void point_reference_voltage_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REFERENCE_VOLTAGE_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_REFERENCE_VOLTAGE_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("VRef_SF") FIELDSCRIBE_REFERENCE("register", 40173))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REFERENCE_VOLTAGE_EXPONENT, "holding", 1U, "VRef_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40173))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_reference_voltage_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_reference_voltage_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_reference_voltage_exponent_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_reference_voltage_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_reference_voltage_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -2011,16 +1882,15 @@ static void point_reference_voltage_exponent(fieldscribe_vector *v)
 
 static void point_reference_voltage_offset_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REFERENCE_VOLTAGE_OFFSET_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_REFERENCE_VOLTAGE_OFFSET_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("VRefOfs_SF") FIELDSCRIBE_REFERENCE("register", 40174))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REFERENCE_VOLTAGE_OFFSET_EXPONENT, "holding", 1U, "VRefOfs_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40174))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_reference_voltage_offset_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_reference_voltage_offset_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_reference_voltage_offset_exponent_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_reference_voltage_offset_exponent,
         int32_t, int16_t, FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_reference_voltage_offset_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -2031,16 +1901,15 @@ static void point_reference_voltage_offset_exponent(fieldscribe_vector *v)
 
 static void point_voltage_limits_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_VOLTAGE_LIMITS_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_VOLTAGE_LIMITS_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("VMinMax_SF") FIELDSCRIBE_REFERENCE("register", 40175))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_VOLTAGE_LIMITS_EXPONENT, "holding", 1U, "VMinMax_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40175))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_voltage_limits_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_voltage_limits_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_voltage_limits_exponent_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_voltage_limits_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_voltage_limits_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -2051,16 +1920,15 @@ static void point_voltage_limits_exponent(fieldscribe_vector *v)
 
 static void point_maximum_apparent_power_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_APPARENT_POWER_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MAXIMUM_APPARENT_POWER_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("VAMax_SF") FIELDSCRIBE_REFERENCE("register", 40176))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_APPARENT_POWER_EXPONENT, "holding", 1U, "VAMax_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40176))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_maximum_apparent_power_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_maximum_apparent_power_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_maximum_apparent_power_exponent_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_maximum_apparent_power_exponent,
         int32_t, int16_t, FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_maximum_apparent_power_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -2071,16 +1939,15 @@ static void point_maximum_apparent_power_exponent(fieldscribe_vector *v)
 
 static void point_maximum_reactive_power_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_REACTIVE_POWER_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MAXIMUM_REACTIVE_POWER_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("VARMax_SF") FIELDSCRIBE_REFERENCE("register", 40177))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_REACTIVE_POWER_EXPONENT, "holding", 1U, "VARMax_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40177))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_maximum_reactive_power_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_maximum_reactive_power_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_maximum_reactive_power_exponent_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_maximum_reactive_power_exponent,
         int32_t, int16_t, FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_maximum_reactive_power_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -2091,16 +1958,15 @@ static void point_maximum_reactive_power_exponent(fieldscribe_vector *v)
 
 static void point_power_ramp_rate_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_RAMP_RATE_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_POWER_RAMP_RATE_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("WGra_SF") FIELDSCRIBE_REFERENCE("register", 40178))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_RAMP_RATE_EXPONENT, "holding", 1U, "WGra_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40178))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_power_ramp_rate_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_power_ramp_rate_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_power_ramp_rate_exponent_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_power_ramp_rate_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_power_ramp_rate_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -2111,16 +1977,15 @@ static void point_power_ramp_rate_exponent(fieldscribe_vector *v)
 
 static void point_minimum_power_factor_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MINIMUM_POWER_FACTOR_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MINIMUM_POWER_FACTOR_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("PFMin_SF") FIELDSCRIBE_REFERENCE("register", 40179))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MINIMUM_POWER_FACTOR_EXPONENT, "holding", 1U, "PFMin_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40179))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_minimum_power_factor_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_minimum_power_factor_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_minimum_power_factor_exponent_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_minimum_power_factor_exponent,
         int32_t, int16_t, FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_minimum_power_factor_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -2131,16 +1996,15 @@ static void point_minimum_power_factor_exponent(fieldscribe_vector *v)
 
 static void point_maximum_ramp_rate_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_RAMP_RATE_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MAXIMUM_RAMP_RATE_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("MaxRmpRte_SF") FIELDSCRIBE_REFERENCE("register", 40180))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_RAMP_RATE_EXPONENT, "holding", 1U, "MaxRmpRte_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40180))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_maximum_ramp_rate_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_maximum_ramp_rate_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_maximum_ramp_rate_exponent_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_maximum_ramp_rate_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_maximum_ramp_rate_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -2151,16 +2015,15 @@ static void point_maximum_ramp_rate_exponent(fieldscribe_vector *v)
 
 static void point_nominal_frequency_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_NOMINAL_FREQUENCY_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_NOMINAL_FREQUENCY_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("ECPNomHz_SF") FIELDSCRIBE_REFERENCE("register", 40181))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_NOMINAL_FREQUENCY_EXPONENT, "holding", 1U, "ECPNomHz_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40181))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_nominal_frequency_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_nominal_frequency_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_nominal_frequency_exponent_frame, "models_121")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_nominal_frequency_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_121") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_nominal_frequency_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -2171,29 +2034,21 @@ static void point_nominal_frequency_exponent(fieldscribe_vector *v)
 
 static void point_pv_connection(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_PV_CONNECTION, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_PV_CONNECTION) FIELDSCRIBE_ONLY_READ(0, 65534) FIELDSCRIBE_CODE("PVConn")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_PV_CONNECTION, "holding", 1U, "PVConn", FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40184))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_pv_connection_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_pv_connection_frame, "models_122")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_pv_connection, int32_t, uint16_t,
         FIELDSCRIBE_BASE("models_122") FIELDSCRIBE_ALONE, (int)fronius_datamanager_pv_connection_decode(raw
         FIELDSCRIBE_ALONE, &number))
-    FIELDSCRIBE_TRUTH("connected", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_PV_CONNECTION_CONNECTED_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_PV_CONNECTION_CONNECTED_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("available", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_PV_CONNECTION_AVAILABLE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_PV_CONNECTION_AVAILABLE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("operating", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_PV_CONNECTION_OPERATING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_PV_CONNECTION_OPERATING_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("test", (((uint16_t)fieldscribe_bits(v, "raw")) & FRONIUS_DATAMANAGER_PV_CONNECTION_TEST_MASK) !=
-        0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) & FRONIUS_DATAMANAGER_PV_CONNECTION_TEST_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("connected", uint16_t, FRONIUS_DATAMANAGER_PV_CONNECTION_CONNECTED_MASK, 0U)
+    FIELDSCRIBE_TRUTH("available", uint16_t, FRONIUS_DATAMANAGER_PV_CONNECTION_AVAILABLE_MASK, 0U)
+    FIELDSCRIBE_TRUTH("operating", uint16_t, FRONIUS_DATAMANAGER_PV_CONNECTION_OPERATING_MASK, 0U)
+    FIELDSCRIBE_TRUTH("test", uint16_t, FRONIUS_DATAMANAGER_PV_CONNECTION_TEST_MASK, 0U)
     FIELDSCRIBE_SPECIAL("not_implemented", FRONIUS_DATAMANAGER_STATUS_U16_NOT_IMPLEMENTED,
         FRONIUS_DATAMANAGER_STATUS_U16_NOT_IMPLEMENTED)
     FIELDSCRIBE_SPECIAL_NAME(fronius_datamanager_pv_connection, uint16_t)
@@ -2201,30 +2056,21 @@ static void point_pv_connection(fieldscribe_vector *v)
 
 static void point_storage_connection(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_STORAGE_CONNECTION, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_STORAGE_CONNECTION) FIELDSCRIBE_ONLY_READ(0, 65534)
-        FIELDSCRIBE_CODE("StorConn") FIELDSCRIBE_REFERENCE("register", 40185))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_STORAGE_CONNECTION, "holding", 1U, "StorConn", FIELDSCRIBE_ONLY_READ(0,
+        65534) FIELDSCRIBE_REFERENCE("register", 40185))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_storage_connection_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_storage_connection_frame, "models_122")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_storage_connection, int32_t, uint16_t,
         FIELDSCRIBE_BASE("models_122") FIELDSCRIBE_ALONE, (int)fronius_datamanager_storage_connection_decode(raw
         FIELDSCRIBE_ALONE, &number))
-    FIELDSCRIBE_TRUTH("connected", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_STORAGE_CONNECTION_CONNECTED_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_STORAGE_CONNECTION_CONNECTED_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("available", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_STORAGE_CONNECTION_AVAILABLE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_STORAGE_CONNECTION_AVAILABLE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("operating", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_STORAGE_CONNECTION_OPERATING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_STORAGE_CONNECTION_OPERATING_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("test", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_STORAGE_CONNECTION_TEST_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_STORAGE_CONNECTION_TEST_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("connected", uint16_t, FRONIUS_DATAMANAGER_STORAGE_CONNECTION_CONNECTED_MASK, 0U)
+    FIELDSCRIBE_TRUTH("available", uint16_t, FRONIUS_DATAMANAGER_STORAGE_CONNECTION_AVAILABLE_MASK, 0U)
+    FIELDSCRIBE_TRUTH("operating", uint16_t, FRONIUS_DATAMANAGER_STORAGE_CONNECTION_OPERATING_MASK, 0U)
+    FIELDSCRIBE_TRUTH("test", uint16_t, FRONIUS_DATAMANAGER_STORAGE_CONNECTION_TEST_MASK, 0U)
     FIELDSCRIBE_SPECIAL("not_implemented", FRONIUS_DATAMANAGER_STATUS_U16_NOT_IMPLEMENTED,
         FRONIUS_DATAMANAGER_STATUS_U16_NOT_IMPLEMENTED)
     FIELDSCRIBE_SPECIAL_NAME(fronius_datamanager_storage_connection, uint16_t)
@@ -2232,8 +2078,7 @@ static void point_storage_connection(fieldscribe_vector *v)
 
 static void point_grid_connection(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_GRID_CONNECTION, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_GRID_CONNECTION) FIELDSCRIBE_ONLY_READ(0, 1) FIELDSCRIBE_CODE("ECPConn")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_GRID_CONNECTION, "holding", 1U, "ECPConn", FIELDSCRIBE_ONLY_READ(0, 1)
         FIELDSCRIBE_REFERENCE("register", 40186))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_grid_connection_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_NAME(fronius_datamanager_grid_connection_name, int32_t)
@@ -2242,8 +2087,8 @@ static void point_grid_connection(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_grid_connection_frame, "models_122")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_grid_connection, int32_t, uint16_t,
         FIELDSCRIBE_BASE("models_122") FIELDSCRIBE_ALONE, (int)fronius_datamanager_grid_connection_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -2254,15 +2099,14 @@ static void point_grid_connection(fieldscribe_vector *v)
 
 static void point_active_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_ACTIVE_ENERGY, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_ACTIVE_ENERGY) FIELDSCRIBE_ONLY_READ(0, UINT64_C(18446744073709551615))
-        FIELDSCRIBE_CODE("ActWh") FIELDSCRIBE_REFERENCE("register", 40187))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_ACTIVE_ENERGY, "holding", FRONIUS_DATAMANAGER_ACTIVE_ENERGY_WORDS, "ActWh",
+        FIELDSCRIBE_ONLY_READ(0, UINT64_C(18446744073709551615)) FIELDSCRIBE_REFERENCE("register", 40187))
     FIELDSCRIBE_DECODE_COUNT(fronius_datamanager_active_energy_decode, uint64_t, uint64_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_active_energy, uint64_t, 4U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_active_energy_frame, "models_122")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u64, uint64_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u64)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_active_energy, uint64_t, uint64_t,
         FIELDSCRIBE_BASE("models_122") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_PLAIN(fronius_datamanager_active_energy,
         uint64_t))
@@ -2270,15 +2114,14 @@ static void point_active_energy(fieldscribe_vector *v)
 
 static void point_apparent_energy(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_APPARENT_ENERGY, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_APPARENT_ENERGY) FIELDSCRIBE_ONLY_READ(0,
-        UINT64_C(18446744073709551615)) FIELDSCRIBE_CODE("ActVAh") FIELDSCRIBE_REFERENCE("register", 40191))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_APPARENT_ENERGY, "holding", FRONIUS_DATAMANAGER_APPARENT_ENERGY_WORDS,
+        "ActVAh", FIELDSCRIBE_ONLY_READ(0, UINT64_C(18446744073709551615)) FIELDSCRIBE_REFERENCE("register", 40191))
     FIELDSCRIBE_DECODE_COUNT(fronius_datamanager_apparent_energy_decode, uint64_t, uint64_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_apparent_energy, uint64_t, 4U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_apparent_energy_frame, "models_122")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u64, uint64_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u64)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_apparent_energy, uint64_t, uint64_t,
         FIELDSCRIBE_BASE("models_122") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_PLAIN(fronius_datamanager_apparent_energy,
         uint64_t))
@@ -2286,15 +2129,14 @@ static void point_apparent_energy(fieldscribe_vector *v)
 
 static void point_reactive_energy_q1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_ENERGY_Q1, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_REACTIVE_ENERGY_Q1) FIELDSCRIBE_ONLY_READ(0,
-        UINT64_C(18446744073709551615)) FIELDSCRIBE_CODE("ActVArhQ1") FIELDSCRIBE_REFERENCE("register", 40195))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_ENERGY_Q1, "holding", FRONIUS_DATAMANAGER_REACTIVE_ENERGY_Q1_WORDS,
+        "ActVArhQ1", FIELDSCRIBE_ONLY_READ(0, UINT64_C(18446744073709551615)) FIELDSCRIBE_REFERENCE("register", 40195))
     FIELDSCRIBE_DECODE_COUNT(fronius_datamanager_reactive_energy_q1_decode, uint64_t, uint64_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_reactive_energy_q1, uint64_t, 4U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_reactive_energy_q1_frame, "models_122")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u64, uint64_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u64)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_reactive_energy_q1, uint64_t,
         uint64_t, FIELDSCRIBE_BASE("models_122") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_PLAIN(fronius_datamanager_reactive_energy_q1, uint64_t))
@@ -2302,15 +2144,14 @@ static void point_reactive_energy_q1(fieldscribe_vector *v)
 
 static void point_reactive_energy_q2(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_ENERGY_Q2, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_REACTIVE_ENERGY_Q2) FIELDSCRIBE_ONLY_READ(0,
-        UINT64_C(18446744073709551615)) FIELDSCRIBE_CODE("ActVArhQ2") FIELDSCRIBE_REFERENCE("register", 40199))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_ENERGY_Q2, "holding", FRONIUS_DATAMANAGER_REACTIVE_ENERGY_Q2_WORDS,
+        "ActVArhQ2", FIELDSCRIBE_ONLY_READ(0, UINT64_C(18446744073709551615)) FIELDSCRIBE_REFERENCE("register", 40199))
     FIELDSCRIBE_DECODE_COUNT(fronius_datamanager_reactive_energy_q2_decode, uint64_t, uint64_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_reactive_energy_q2, uint64_t, 4U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_reactive_energy_q2_frame, "models_122")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u64, uint64_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u64)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_reactive_energy_q2, uint64_t,
         uint64_t, FIELDSCRIBE_BASE("models_122") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_PLAIN(fronius_datamanager_reactive_energy_q2, uint64_t))
@@ -2318,15 +2159,14 @@ static void point_reactive_energy_q2(fieldscribe_vector *v)
 
 static void point_reactive_energy_q3(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_ENERGY_Q3, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_REACTIVE_ENERGY_Q3) FIELDSCRIBE_ONLY_READ(0,
-        UINT64_C(18446744073709551615)) FIELDSCRIBE_CODE("ActVArhQ3") FIELDSCRIBE_REFERENCE("register", 40203))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_ENERGY_Q3, "holding", FRONIUS_DATAMANAGER_REACTIVE_ENERGY_Q3_WORDS,
+        "ActVArhQ3", FIELDSCRIBE_ONLY_READ(0, UINT64_C(18446744073709551615)) FIELDSCRIBE_REFERENCE("register", 40203))
     FIELDSCRIBE_DECODE_COUNT(fronius_datamanager_reactive_energy_q3_decode, uint64_t, uint64_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_reactive_energy_q3, uint64_t, 4U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_reactive_energy_q3_frame, "models_122")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u64, uint64_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u64)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_reactive_energy_q3, uint64_t,
         uint64_t, FIELDSCRIBE_BASE("models_122") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_PLAIN(fronius_datamanager_reactive_energy_q3, uint64_t))
@@ -2334,15 +2174,14 @@ static void point_reactive_energy_q3(fieldscribe_vector *v)
 
 static void point_reactive_energy_q4(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_ENERGY_Q4, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_REACTIVE_ENERGY_Q4) FIELDSCRIBE_ONLY_READ(0,
-        UINT64_C(18446744073709551615)) FIELDSCRIBE_CODE("ActVArhQ4") FIELDSCRIBE_REFERENCE("register", 40207))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_ENERGY_Q4, "holding", FRONIUS_DATAMANAGER_REACTIVE_ENERGY_Q4_WORDS,
+        "ActVArhQ4", FIELDSCRIBE_ONLY_READ(0, UINT64_C(18446744073709551615)) FIELDSCRIBE_REFERENCE("register", 40207))
     FIELDSCRIBE_DECODE_COUNT(fronius_datamanager_reactive_energy_q4_decode, uint64_t, uint64_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_reactive_energy_q4, uint64_t, 4U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_reactive_energy_q4_frame, "models_122")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u64, uint64_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u64)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_reactive_energy_q4, uint64_t,
         uint64_t, FIELDSCRIBE_BASE("models_122") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_PLAIN(fronius_datamanager_reactive_energy_q4, uint64_t))
@@ -2350,16 +2189,15 @@ static void point_reactive_energy_q4(fieldscribe_vector *v)
 
 static void point_available_reactive_power(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_AVAILABLE_REACTIVE_POWER, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_AVAILABLE_REACTIVE_POWER) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_CODE("VArAval") FIELDSCRIBE_REFERENCE("register", 40211))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_AVAILABLE_REACTIVE_POWER, "holding", 1U, "VArAval",
+        FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_REFERENCE("register", 40211))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_available_reactive_power_decode, double, int16_t,
         FIELDSCRIBE_WITH("available_reactive_power_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_available_reactive_power, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_available_reactive_power_frame, "models_122")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_available_reactive_power, int16_t,
         int16_t, FIELDSCRIBE_BASE("models_122") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_available_reactive_power, int16_t))
@@ -2370,16 +2208,15 @@ static void point_available_reactive_power(fieldscribe_vector *v)
 
 static void point_available_reactive_power_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_AVAILABLE_REACTIVE_POWER_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_AVAILABLE_REACTIVE_POWER_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("VArAval_SF") FIELDSCRIBE_REFERENCE("register", 40212))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_AVAILABLE_REACTIVE_POWER_EXPONENT, "holding", 1U, "VArAval_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40212))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_available_reactive_power_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_available_reactive_power_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_available_reactive_power_exponent_frame, "models_122")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_available_reactive_power_exponent,
         int32_t, int16_t, FIELDSCRIBE_BASE("models_122") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_available_reactive_power_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -2390,16 +2227,15 @@ static void point_available_reactive_power_exponent(fieldscribe_vector *v)
 
 static void point_available_power(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_AVAILABLE_POWER, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_AVAILABLE_POWER) FIELDSCRIBE_ONLY_READ(0, 65534) FIELDSCRIBE_CODE("WAval")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_AVAILABLE_POWER, "holding", 1U, "WAval", FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40213))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_available_power_decode, double, uint16_t,
         FIELDSCRIBE_WITH("available_power_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_available_power_frame, "models_122")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_available_power, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_122") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_available_power,
         uint16_t))
@@ -2410,16 +2246,15 @@ static void point_available_power(fieldscribe_vector *v)
 
 static void point_available_power_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_AVAILABLE_POWER_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_AVAILABLE_POWER_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("WAval_SF") FIELDSCRIBE_REFERENCE("register", 40214))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_AVAILABLE_POWER_EXPONENT, "holding", 1U, "WAval_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40214))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_available_power_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_available_power_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_available_power_exponent_frame, "models_122")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_available_power_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_122") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_available_power_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -2430,15 +2265,14 @@ static void point_available_power_exponent(fieldscribe_vector *v)
 
 static void point_limits_reached(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_LIMITS_REACHED, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_LIMITS_REACHED) FIELDSCRIBE_ONLY_READ(0, 4294967294)
-        FIELDSCRIBE_CODE("StSetLimMsk") FIELDSCRIBE_REFERENCE("register", 40215))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_LIMITS_REACHED, "holding", FRONIUS_DATAMANAGER_LIMITS_REACHED_WORDS,
+        "StSetLimMsk", FIELDSCRIBE_ONLY_READ(0, 4294967294) FIELDSCRIBE_REFERENCE("register", 40215))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_limits_reached_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_limits_reached, uint32_t, 2U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_limits_reached_frame, "models_122")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u32)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_limits_reached, int64_t, uint32_t,
         FIELDSCRIBE_BASE("models_122") FIELDSCRIBE_ALONE, (int)fronius_datamanager_limits_reached_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -2449,27 +2283,21 @@ static void point_limits_reached(fieldscribe_vector *v)
 
 static void point_active_controls(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_ACTIVE_CONTROLS, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_ACTIVE_CONTROLS) FIELDSCRIBE_ONLY_READ(0, 4294967294)
-        FIELDSCRIBE_CODE("StActCtl") FIELDSCRIBE_REFERENCE("register", 40217))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_ACTIVE_CONTROLS, "holding", FRONIUS_DATAMANAGER_ACTIVE_CONTROLS_WORDS,
+        "StActCtl", FIELDSCRIBE_ONLY_READ(0, 4294967294) FIELDSCRIBE_REFERENCE("register", 40217))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_active_controls_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_active_controls, uint32_t, 2U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_active_controls_frame, "models_122")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u32)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_active_controls, int64_t, uint32_t,
         FIELDSCRIBE_BASE("models_122") FIELDSCRIBE_ALONE, (int)fronius_datamanager_active_controls_decode(raw
         FIELDSCRIBE_ALONE, &number))
-    FIELDSCRIBE_TRUTH("fixed_power", (((uint32_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_ACTIVE_CONTROLS_FIXED_POWER_MASK) != 0U, ((((uint32_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_ACTIVE_CONTROLS_FIXED_POWER_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("fixed_reactive_power", (((uint32_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_ACTIVE_CONTROLS_FIXED_REACTIVE_POWER_MASK) != 0U, ((((uint32_t)fieldscribe_bits(v, "raw")))
-        & FRONIUS_DATAMANAGER_ACTIVE_CONTROLS_FIXED_REACTIVE_POWER_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("fixed_power_factor", (((uint32_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_ACTIVE_CONTROLS_FIXED_POWER_FACTOR_MASK) != 0U, ((((uint32_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_ACTIVE_CONTROLS_FIXED_POWER_FACTOR_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("fixed_power", uint32_t, FRONIUS_DATAMANAGER_ACTIVE_CONTROLS_FIXED_POWER_MASK, 0U)
+    FIELDSCRIBE_TRUTH("fixed_reactive_power", uint32_t, FRONIUS_DATAMANAGER_ACTIVE_CONTROLS_FIXED_REACTIVE_POWER_MASK,
+        0U)
+    FIELDSCRIBE_TRUTH("fixed_power_factor", uint32_t, FRONIUS_DATAMANAGER_ACTIVE_CONTROLS_FIXED_POWER_FACTOR_MASK, 0U)
     FIELDSCRIBE_SPECIAL("not_implemented", FRONIUS_DATAMANAGER_STATUS_U32_NOT_IMPLEMENTED,
         FRONIUS_DATAMANAGER_STATUS_U32_NOT_IMPLEMENTED)
     FIELDSCRIBE_SPECIAL_NAME(fronius_datamanager_active_controls, uint32_t)
@@ -2477,9 +2305,8 @@ static void point_active_controls(fieldscribe_vector *v)
 
 static void point_time_source(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_TIME_SOURCE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_TIME_SOURCE) FIELDSCRIBE_CODE("TmSrc") FIELDSCRIBE_REFERENCE("register",
-        40219))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_TIME_SOURCE, "holding", FRONIUS_DATAMANAGER_TIME_SOURCE_WORDS, "TmSrc",
+        FIELDSCRIBE_REFERENCE("register", 40219))
     FIELDSCRIBE_TEXT_DECODE(fronius_datamanager_time_source, FRONIUS_DATAMANAGER_TIME_SOURCE)
     FIELDSCRIBE_PLACE_OF_TEXT(FRONIUS_DATAMANAGER_TIME_SOURCE, fronius_datamanager_time_source, )
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_text_r, fronius_datamanager_time_source_frame, "models_122")
@@ -2491,16 +2318,15 @@ static void point_time_source(fieldscribe_vector *v)
 
 static void point_time(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_TIME, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_TIME) FIELDSCRIBE_ONLY_READ(0, 4294967294) FIELDSCRIBE_CODE("Tms")
-        FIELDSCRIBE_REFERENCE("register", 40223))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_TIME, "holding", FRONIUS_DATAMANAGER_TIME_WORDS, "Tms",
+        FIELDSCRIBE_ONLY_READ(0, 4294967294) FIELDSCRIBE_REFERENCE("register", 40223))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_time_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_EPOCH(FRONIUS_DATAMANAGER_TIME)
     FIELDSCRIBE_WORDS(fronius_datamanager_time, uint32_t, 2U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_time_frame, "models_122")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u32)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_time, int64_t, uint32_t,
         FIELDSCRIBE_BASE("models_122") FIELDSCRIBE_ALONE, (int)fronius_datamanager_time_decode(raw FIELDSCRIBE_ALONE,
         &number))
@@ -2511,15 +2337,14 @@ static void point_time(fieldscribe_vector *v)
 
 static void point_ride_through_status(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RIDE_THROUGH_STATUS, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_RIDE_THROUGH_STATUS) FIELDSCRIBE_ONLY_READ(0, 65534)
-        FIELDSCRIBE_CODE("RtSt") FIELDSCRIBE_REFERENCE("register", 40225))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RIDE_THROUGH_STATUS, "holding", 1U, "RtSt", FIELDSCRIBE_ONLY_READ(0, 65534)
+        FIELDSCRIBE_REFERENCE("register", 40225))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_ride_through_status_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_ride_through_status_frame, "models_122")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_ride_through_status, int32_t,
         uint16_t, FIELDSCRIBE_BASE("models_122") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_ride_through_status_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -2530,16 +2355,15 @@ static void point_ride_through_status(fieldscribe_vector *v)
 
 static void point_isolation_resistance(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_ISOLATION_RESISTANCE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_ISOLATION_RESISTANCE) FIELDSCRIBE_ONLY_READ(0, 65534)
-        FIELDSCRIBE_CODE("Ris") FIELDSCRIBE_REFERENCE("register", 40226))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_ISOLATION_RESISTANCE, "holding", 1U, "Ris", FIELDSCRIBE_ONLY_READ(0, 65534)
+        FIELDSCRIBE_REFERENCE("register", 40226))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_isolation_resistance_decode, double, uint16_t,
         FIELDSCRIBE_WITH("isolation_resistance_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_isolation_resistance_frame, "models_122")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_isolation_resistance, uint16_t,
         uint16_t, FIELDSCRIBE_BASE("models_122") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_isolation_resistance, uint16_t))
@@ -2550,16 +2374,15 @@ static void point_isolation_resistance(fieldscribe_vector *v)
 
 static void point_isolation_resistance_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_ISOLATION_RESISTANCE_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_ISOLATION_RESISTANCE_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("Ris_SF") FIELDSCRIBE_REFERENCE("register", 40227))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_ISOLATION_RESISTANCE_EXPONENT, "holding", 1U, "Ris_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40227))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_isolation_resistance_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_isolation_resistance_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_isolation_resistance_exponent_frame, "models_122")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_isolation_resistance_exponent,
         int32_t, int16_t, FIELDSCRIBE_BASE("models_122") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_isolation_resistance_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -2570,9 +2393,8 @@ static void point_isolation_resistance_exponent(fieldscribe_vector *v)
 
 static void point_connection_window(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_CONNECTION_WINDOW, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_CONNECTION_WINDOW) FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_CONNECTION_WINDOW)
-        FIELDSCRIBE_CODE("Conn_WinTms") FIELDSCRIBE_REFERENCE("register", 40230))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_CONNECTION_WINDOW, "holding", 1U, "Conn_WinTms",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_CONNECTION_WINDOW) FIELDSCRIBE_REFERENCE("register", 40230))
     FIELDSCRIBE_CHECK(fronius_datamanager_connection_window_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(fronius_datamanager_connection_window_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_connection_window_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
@@ -2580,9 +2402,7 @@ static void point_connection_window(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_connection_window_frame, "models_123")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
-    FIELDSCRIBE_WRITE(moved, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_connection_window, int32_t, uint16_t,
         FIELDSCRIBE_BASE("models_123") FIELDSCRIBE_ALONE, (int)fronius_datamanager_connection_window_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -2597,9 +2417,8 @@ static void point_connection_window(fieldscribe_vector *v)
 
 static void point_connection_timeout(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_CONNECTION_TIMEOUT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_CONNECTION_TIMEOUT) FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_CONNECTION_TIMEOUT)
-        FIELDSCRIBE_CODE("Conn_RvrtTms") FIELDSCRIBE_REFERENCE("register", 40231))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_CONNECTION_TIMEOUT, "holding", 1U, "Conn_RvrtTms",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_CONNECTION_TIMEOUT) FIELDSCRIBE_REFERENCE("register", 40231))
     FIELDSCRIBE_CHECK(fronius_datamanager_connection_timeout_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(fronius_datamanager_connection_timeout_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_connection_timeout_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
@@ -2607,9 +2426,7 @@ static void point_connection_timeout(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_connection_timeout_frame, "models_123")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
-    FIELDSCRIBE_WRITE(moved, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_connection_timeout, int32_t, uint16_t,
         FIELDSCRIBE_BASE("models_123") FIELDSCRIBE_ALONE, (int)fronius_datamanager_connection_timeout_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -2624,9 +2441,8 @@ static void point_connection_timeout(fieldscribe_vector *v)
 
 static void point_connection(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_CONNECTION, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_CONNECTION) FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_CONNECTION)
-        FIELDSCRIBE_CODE("Conn") FIELDSCRIBE_REFERENCE("register", 40232))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_CONNECTION, "holding", 1U, "Conn",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_CONNECTION) FIELDSCRIBE_REFERENCE("register", 40232))
     FIELDSCRIBE_CHECK(fronius_datamanager_connection_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(fronius_datamanager_connection_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_connection_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
@@ -2637,9 +2453,7 @@ static void point_connection(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_connection_frame, "models_123")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
-    FIELDSCRIBE_WRITE(moved, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_connection, int32_t, uint16_t,
         FIELDSCRIBE_BASE("models_123") FIELDSCRIBE_ALONE, (int)fronius_datamanager_connection_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -2653,9 +2467,8 @@ static void point_connection(fieldscribe_vector *v)
 
 static void point_power_limit(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_LIMIT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_POWER_LIMIT) FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_POWER_LIMIT)
-        FIELDSCRIBE_CODE("WMaxLimPct") FIELDSCRIBE_REFERENCE("register", 40233))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_LIMIT, "holding", 1U, "WMaxLimPct",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_POWER_LIMIT) FIELDSCRIBE_REFERENCE("register", 40233))
     FIELDSCRIBE_CHECK(fronius_datamanager_power_limit_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE(fronius_datamanager_power_limit_encode, double, uint16_t,
         FIELDSCRIBE_WITH("power_limit_exponent", int16_t))
@@ -2665,9 +2478,7 @@ static void point_power_limit(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_power_limit_frame, "models_123")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
-    FIELDSCRIBE_WRITE(moved, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_power_limit, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_123") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_power_limit,
         uint16_t))
@@ -2682,9 +2493,8 @@ static void point_power_limit(fieldscribe_vector *v)
 
 static void point_power_limit_window(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_LIMIT_WINDOW, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_POWER_LIMIT_WINDOW) FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_POWER_LIMIT_WINDOW)
-        FIELDSCRIBE_CODE("WMaxLimPct_WinTms") FIELDSCRIBE_REFERENCE("register", 40234))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_LIMIT_WINDOW, "holding", 1U, "WMaxLimPct_WinTms",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_POWER_LIMIT_WINDOW) FIELDSCRIBE_REFERENCE("register", 40234))
     FIELDSCRIBE_CHECK(fronius_datamanager_power_limit_window_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(fronius_datamanager_power_limit_window_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_power_limit_window_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
@@ -2692,9 +2502,7 @@ static void point_power_limit_window(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_power_limit_window_frame, "models_123")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
-    FIELDSCRIBE_WRITE(moved, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_power_limit_window, int32_t, uint16_t,
         FIELDSCRIBE_BASE("models_123") FIELDSCRIBE_ALONE, (int)fronius_datamanager_power_limit_window_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -2709,10 +2517,8 @@ static void point_power_limit_window(fieldscribe_vector *v)
 
 static void point_power_limit_timeout(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_LIMIT_TIMEOUT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_POWER_LIMIT_TIMEOUT)
-        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_POWER_LIMIT_TIMEOUT) FIELDSCRIBE_CODE("WMaxLimPct_RvrtTms")
-        FIELDSCRIBE_REFERENCE("register", 40235))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_LIMIT_TIMEOUT, "holding", 1U, "WMaxLimPct_RvrtTms",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_POWER_LIMIT_TIMEOUT) FIELDSCRIBE_REFERENCE("register", 40235))
     FIELDSCRIBE_CHECK(fronius_datamanager_power_limit_timeout_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(fronius_datamanager_power_limit_timeout_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_power_limit_timeout_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
@@ -2720,9 +2526,7 @@ static void point_power_limit_timeout(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_power_limit_timeout_frame, "models_123")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
-    FIELDSCRIBE_WRITE(moved, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_power_limit_timeout, int32_t,
         uint16_t, FIELDSCRIBE_BASE("models_123") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_power_limit_timeout_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -2737,10 +2541,8 @@ static void point_power_limit_timeout(fieldscribe_vector *v)
 
 static void point_power_limit_ramp_time(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_LIMIT_RAMP_TIME, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_POWER_LIMIT_RAMP_TIME)
-        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_POWER_LIMIT_RAMP_TIME) FIELDSCRIBE_CODE("WMaxLimPct_RmpTms")
-        FIELDSCRIBE_REFERENCE("register", 40236))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_LIMIT_RAMP_TIME, "holding", 1U, "WMaxLimPct_RmpTms",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_POWER_LIMIT_RAMP_TIME) FIELDSCRIBE_REFERENCE("register", 40236))
     FIELDSCRIBE_CHECK(fronius_datamanager_power_limit_ramp_time_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(fronius_datamanager_power_limit_ramp_time_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_power_limit_ramp_time_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
@@ -2748,9 +2550,7 @@ static void point_power_limit_ramp_time(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_power_limit_ramp_time_frame, "models_123")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
-    FIELDSCRIBE_WRITE(moved, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_power_limit_ramp_time, int32_t,
         uint16_t, FIELDSCRIBE_BASE("models_123") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_power_limit_ramp_time_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -2765,10 +2565,8 @@ static void point_power_limit_ramp_time(fieldscribe_vector *v)
 
 static void point_power_limit_enabled(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_LIMIT_ENABLED, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_POWER_LIMIT_ENABLED)
-        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_POWER_LIMIT_ENABLED) FIELDSCRIBE_CODE("WMaxLim_Ena")
-        FIELDSCRIBE_REFERENCE("register", 40237))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_LIMIT_ENABLED, "holding", 1U, "WMaxLim_Ena",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_POWER_LIMIT_ENABLED) FIELDSCRIBE_REFERENCE("register", 40237))
     FIELDSCRIBE_CHECK(fronius_datamanager_power_limit_enabled_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(fronius_datamanager_power_limit_enabled_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_power_limit_enabled_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
@@ -2779,9 +2577,7 @@ static void point_power_limit_enabled(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_power_limit_enabled_frame, "models_123")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
-    FIELDSCRIBE_WRITE(moved, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_power_limit_enabled, int32_t,
         uint16_t, FIELDSCRIBE_BASE("models_123") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_power_limit_enabled_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -2796,10 +2592,8 @@ static void point_power_limit_enabled(fieldscribe_vector *v)
 
 static void point_power_factor_setpoint(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_FACTOR_SETPOINT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_POWER_FACTOR_SETPOINT)
-        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_POWER_FACTOR_SETPOINT) FIELDSCRIBE_CODE("OutPFSet")
-        FIELDSCRIBE_REFERENCE("register", 40238))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_FACTOR_SETPOINT, "holding", 1U, "OutPFSet",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_POWER_FACTOR_SETPOINT) FIELDSCRIBE_REFERENCE("register", 40238))
     FIELDSCRIBE_CHECK(fronius_datamanager_power_factor_setpoint_check, int16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE(fronius_datamanager_power_factor_setpoint_encode, double, int16_t,
         FIELDSCRIBE_WITH("power_factor_setpoint_exponent", int16_t))
@@ -2809,9 +2603,7 @@ static void point_power_factor_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_power_factor_setpoint_frame, "models_123")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
-    FIELDSCRIBE_WRITE(moved, s16, int16_t)
+    FIELDSCRIBE_READ_WRITE(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_power_factor_setpoint, int16_t,
         int16_t, FIELDSCRIBE_BASE("models_123") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_power_factor_setpoint, int16_t))
@@ -2826,10 +2618,8 @@ static void point_power_factor_setpoint(fieldscribe_vector *v)
 
 static void point_power_factor_window(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_FACTOR_WINDOW, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_POWER_FACTOR_WINDOW)
-        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_POWER_FACTOR_WINDOW) FIELDSCRIBE_CODE("OutPFSet_WinTms")
-        FIELDSCRIBE_REFERENCE("register", 40239))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_FACTOR_WINDOW, "holding", 1U, "OutPFSet_WinTms",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_POWER_FACTOR_WINDOW) FIELDSCRIBE_REFERENCE("register", 40239))
     FIELDSCRIBE_CHECK(fronius_datamanager_power_factor_window_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(fronius_datamanager_power_factor_window_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_power_factor_window_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
@@ -2837,9 +2627,7 @@ static void point_power_factor_window(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_power_factor_window_frame, "models_123")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
-    FIELDSCRIBE_WRITE(moved, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_power_factor_window, int32_t,
         uint16_t, FIELDSCRIBE_BASE("models_123") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_power_factor_window_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -2854,10 +2642,8 @@ static void point_power_factor_window(fieldscribe_vector *v)
 
 static void point_power_factor_timeout(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_FACTOR_TIMEOUT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_POWER_FACTOR_TIMEOUT)
-        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_POWER_FACTOR_TIMEOUT) FIELDSCRIBE_CODE("OutPFSet_RvrtTms")
-        FIELDSCRIBE_REFERENCE("register", 40240))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_FACTOR_TIMEOUT, "holding", 1U, "OutPFSet_RvrtTms",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_POWER_FACTOR_TIMEOUT) FIELDSCRIBE_REFERENCE("register", 40240))
     FIELDSCRIBE_CHECK(fronius_datamanager_power_factor_timeout_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(fronius_datamanager_power_factor_timeout_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_power_factor_timeout_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
@@ -2865,9 +2651,7 @@ static void point_power_factor_timeout(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_power_factor_timeout_frame, "models_123")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
-    FIELDSCRIBE_WRITE(moved, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_power_factor_timeout, int32_t,
         uint16_t, FIELDSCRIBE_BASE("models_123") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_power_factor_timeout_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -2882,10 +2666,8 @@ static void point_power_factor_timeout(fieldscribe_vector *v)
 
 static void point_power_factor_ramp_time(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_FACTOR_RAMP_TIME, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_POWER_FACTOR_RAMP_TIME)
-        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_POWER_FACTOR_RAMP_TIME) FIELDSCRIBE_CODE("OutPFSet_RmpTms")
-        FIELDSCRIBE_REFERENCE("register", 40241))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_FACTOR_RAMP_TIME, "holding", 1U, "OutPFSet_RmpTms",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_POWER_FACTOR_RAMP_TIME) FIELDSCRIBE_REFERENCE("register", 40241))
     FIELDSCRIBE_CHECK(fronius_datamanager_power_factor_ramp_time_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(fronius_datamanager_power_factor_ramp_time_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_power_factor_ramp_time_decode, int32_t, uint16_t,
@@ -2894,9 +2676,7 @@ static void point_power_factor_ramp_time(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_power_factor_ramp_time_frame, "models_123")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
-    FIELDSCRIBE_WRITE(moved, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_power_factor_ramp_time, int32_t,
         uint16_t, FIELDSCRIBE_BASE("models_123") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_power_factor_ramp_time_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -2911,10 +2691,8 @@ static void point_power_factor_ramp_time(fieldscribe_vector *v)
 
 static void point_power_factor_enabled(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_FACTOR_ENABLED, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_POWER_FACTOR_ENABLED)
-        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_POWER_FACTOR_ENABLED) FIELDSCRIBE_CODE("OutPFSet_Ena")
-        FIELDSCRIBE_REFERENCE("register", 40242))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_FACTOR_ENABLED, "holding", 1U, "OutPFSet_Ena",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_POWER_FACTOR_ENABLED) FIELDSCRIBE_REFERENCE("register", 40242))
     FIELDSCRIBE_CHECK(fronius_datamanager_power_factor_enabled_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(fronius_datamanager_power_factor_enabled_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_power_factor_enabled_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
@@ -2925,9 +2703,7 @@ static void point_power_factor_enabled(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_power_factor_enabled_frame, "models_123")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
-    FIELDSCRIBE_WRITE(moved, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_power_factor_enabled, int32_t,
         uint16_t, FIELDSCRIBE_BASE("models_123") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_power_factor_enabled_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -2942,16 +2718,15 @@ static void point_power_factor_enabled(fieldscribe_vector *v)
 
 static void point_reactive_power_of_maximum_power(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_POWER_OF_MAXIMUM_POWER, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_REACTIVE_POWER_OF_MAXIMUM_POWER) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_CODE("VArWMaxPct") FIELDSCRIBE_REFERENCE("register", 40243))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_POWER_OF_MAXIMUM_POWER, "holding", 1U, "VArWMaxPct",
+        FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_REFERENCE("register", 40243))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_reactive_power_of_maximum_power_decode, double, int16_t,
         FIELDSCRIBE_WITH("reactive_power_percent_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_reactive_power_of_maximum_power, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_reactive_power_of_maximum_power_frame, "models_123")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_reactive_power_of_maximum_power,
         int16_t, int16_t, FIELDSCRIBE_BASE("models_123") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_reactive_power_of_maximum_power, int16_t))
@@ -2962,10 +2737,8 @@ static void point_reactive_power_of_maximum_power(fieldscribe_vector *v)
 
 static void point_reactive_power_of_maximum(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_POWER_OF_MAXIMUM, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_REACTIVE_POWER_OF_MAXIMUM)
-        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_REACTIVE_POWER_OF_MAXIMUM) FIELDSCRIBE_CODE("VArMaxPct")
-        FIELDSCRIBE_REFERENCE("register", 40244))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_POWER_OF_MAXIMUM, "holding", 1U, "VArMaxPct",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_REACTIVE_POWER_OF_MAXIMUM) FIELDSCRIBE_REFERENCE("register", 40244))
     FIELDSCRIBE_CHECK(fronius_datamanager_reactive_power_of_maximum_check, int16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE(fronius_datamanager_reactive_power_of_maximum_encode, double, int16_t,
         FIELDSCRIBE_WITH("reactive_power_percent_exponent", int16_t))
@@ -2975,9 +2748,7 @@ static void point_reactive_power_of_maximum(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_reactive_power_of_maximum_frame, "models_123")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
-    FIELDSCRIBE_WRITE(moved, s16, int16_t)
+    FIELDSCRIBE_READ_WRITE(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_reactive_power_of_maximum, int16_t,
         int16_t, FIELDSCRIBE_BASE("models_123") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_reactive_power_of_maximum, int16_t))
@@ -2992,16 +2763,15 @@ static void point_reactive_power_of_maximum(fieldscribe_vector *v)
 
 static void point_reactive_power_of_available(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_POWER_OF_AVAILABLE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_REACTIVE_POWER_OF_AVAILABLE) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_CODE("VArAvalPct") FIELDSCRIBE_REFERENCE("register", 40245))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_POWER_OF_AVAILABLE, "holding", 1U, "VArAvalPct",
+        FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_REFERENCE("register", 40245))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_reactive_power_of_available_decode, double, int16_t,
         FIELDSCRIBE_WITH("reactive_power_percent_exponent", int16_t))
     FIELDSCRIBE_WORDS(fronius_datamanager_reactive_power_of_available, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_reactive_power_of_available_frame, "models_123")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_reactive_power_of_available, int16_t,
         int16_t, FIELDSCRIBE_BASE("models_123") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_reactive_power_of_available, int16_t))
@@ -3012,10 +2782,8 @@ static void point_reactive_power_of_available(fieldscribe_vector *v)
 
 static void point_reactive_power_window(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_POWER_WINDOW, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_REACTIVE_POWER_WINDOW)
-        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_REACTIVE_POWER_WINDOW) FIELDSCRIBE_CODE("VArPct_WinTms")
-        FIELDSCRIBE_REFERENCE("register", 40246))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_POWER_WINDOW, "holding", 1U, "VArPct_WinTms",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_REACTIVE_POWER_WINDOW) FIELDSCRIBE_REFERENCE("register", 40246))
     FIELDSCRIBE_CHECK(fronius_datamanager_reactive_power_window_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(fronius_datamanager_reactive_power_window_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_reactive_power_window_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
@@ -3023,9 +2791,7 @@ static void point_reactive_power_window(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_reactive_power_window_frame, "models_123")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
-    FIELDSCRIBE_WRITE(moved, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_reactive_power_window, int32_t,
         uint16_t, FIELDSCRIBE_BASE("models_123") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_reactive_power_window_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -3040,10 +2806,8 @@ static void point_reactive_power_window(fieldscribe_vector *v)
 
 static void point_reactive_power_timeout(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_POWER_TIMEOUT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_REACTIVE_POWER_TIMEOUT)
-        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_REACTIVE_POWER_TIMEOUT) FIELDSCRIBE_CODE("VArPct_RvrtTms")
-        FIELDSCRIBE_REFERENCE("register", 40247))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_POWER_TIMEOUT, "holding", 1U, "VArPct_RvrtTms",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_REACTIVE_POWER_TIMEOUT) FIELDSCRIBE_REFERENCE("register", 40247))
     FIELDSCRIBE_CHECK(fronius_datamanager_reactive_power_timeout_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(fronius_datamanager_reactive_power_timeout_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_reactive_power_timeout_decode, int32_t, uint16_t,
@@ -3052,9 +2816,7 @@ static void point_reactive_power_timeout(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_reactive_power_timeout_frame, "models_123")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
-    FIELDSCRIBE_WRITE(moved, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_reactive_power_timeout, int32_t,
         uint16_t, FIELDSCRIBE_BASE("models_123") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_reactive_power_timeout_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -3069,10 +2831,8 @@ static void point_reactive_power_timeout(fieldscribe_vector *v)
 
 static void point_reactive_power_ramp_time(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_POWER_RAMP_TIME, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_REACTIVE_POWER_RAMP_TIME)
-        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_REACTIVE_POWER_RAMP_TIME) FIELDSCRIBE_CODE("VArPct_RmpTms")
-        FIELDSCRIBE_REFERENCE("register", 40248))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_POWER_RAMP_TIME, "holding", 1U, "VArPct_RmpTms",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_REACTIVE_POWER_RAMP_TIME) FIELDSCRIBE_REFERENCE("register", 40248))
     FIELDSCRIBE_CHECK(fronius_datamanager_reactive_power_ramp_time_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(fronius_datamanager_reactive_power_ramp_time_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_reactive_power_ramp_time_decode, int32_t, uint16_t,
@@ -3081,9 +2841,7 @@ static void point_reactive_power_ramp_time(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_reactive_power_ramp_time_frame, "models_123")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
-    FIELDSCRIBE_WRITE(moved, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_reactive_power_ramp_time, int32_t,
         uint16_t, FIELDSCRIBE_BASE("models_123") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_reactive_power_ramp_time_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -3098,17 +2856,16 @@ static void point_reactive_power_ramp_time(fieldscribe_vector *v)
 
 static void point_reactive_power_mode(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_POWER_MODE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_REACTIVE_POWER_MODE) FIELDSCRIBE_ONLY_READ(0, 65534)
-        FIELDSCRIBE_CODE("VArPct_Mod") FIELDSCRIBE_REFERENCE("register", 40249))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_POWER_MODE, "holding", 1U, "VArPct_Mod", FIELDSCRIBE_ONLY_READ(0,
+        65534) FIELDSCRIBE_REFERENCE("register", 40249))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_reactive_power_mode_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_NAME(fronius_datamanager_reactive_power_mode_name, int32_t)
     FIELDSCRIBE_NAMED("of_maximum_reactive_power", FRONIUS_DATAMANAGER_REACTIVE_POWER_MODE_OF_MAXIMUM_REACTIVE_POWER)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_reactive_power_mode_frame, "models_123")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_reactive_power_mode, int32_t,
         uint16_t, FIELDSCRIBE_BASE("models_123") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_reactive_power_mode_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -3119,10 +2876,8 @@ static void point_reactive_power_mode(fieldscribe_vector *v)
 
 static void point_reactive_power_enabled(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_POWER_ENABLED, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_REACTIVE_POWER_ENABLED)
-        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_REACTIVE_POWER_ENABLED) FIELDSCRIBE_CODE("VArPct_Ena")
-        FIELDSCRIBE_REFERENCE("register", 40250))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_POWER_ENABLED, "holding", 1U, "VArPct_Ena",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_REACTIVE_POWER_ENABLED) FIELDSCRIBE_REFERENCE("register", 40250))
     FIELDSCRIBE_CHECK(fronius_datamanager_reactive_power_enabled_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(fronius_datamanager_reactive_power_enabled_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_reactive_power_enabled_decode, int32_t, uint16_t,
@@ -3134,9 +2889,7 @@ static void point_reactive_power_enabled(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_reactive_power_enabled_frame, "models_123")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
-    FIELDSCRIBE_WRITE(moved, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_reactive_power_enabled, int32_t,
         uint16_t, FIELDSCRIBE_BASE("models_123") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_reactive_power_enabled_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -3151,15 +2904,14 @@ static void point_reactive_power_enabled(fieldscribe_vector *v)
 
 static void point_power_limit_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_LIMIT_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_POWER_LIMIT_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("WMaxLimPct_SF") FIELDSCRIBE_REFERENCE("register", 40251))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_LIMIT_EXPONENT, "holding", 1U, "WMaxLimPct_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40251))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_power_limit_exponent_decode, int32_t, int16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_power_limit_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_power_limit_exponent_frame, "models_123")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_power_limit_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_123") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_power_limit_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -3170,16 +2922,15 @@ static void point_power_limit_exponent(fieldscribe_vector *v)
 
 static void point_power_factor_setpoint_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_FACTOR_SETPOINT_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_POWER_FACTOR_SETPOINT_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("OutPFSet_SF") FIELDSCRIBE_REFERENCE("register", 40252))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_POWER_FACTOR_SETPOINT_EXPONENT, "holding", 1U, "OutPFSet_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40252))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_power_factor_setpoint_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_power_factor_setpoint_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_power_factor_setpoint_exponent_frame, "models_123")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_power_factor_setpoint_exponent,
         int32_t, int16_t, FIELDSCRIBE_BASE("models_123") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_power_factor_setpoint_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -3190,16 +2941,15 @@ static void point_power_factor_setpoint_exponent(fieldscribe_vector *v)
 
 static void point_reactive_power_percent_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_POWER_PERCENT_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_REACTIVE_POWER_PERCENT_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("VArPct_SF") FIELDSCRIBE_REFERENCE("register", 40253))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_REACTIVE_POWER_PERCENT_EXPONENT, "holding", 1U, "VArPct_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40253))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_reactive_power_percent_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_reactive_power_percent_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_reactive_power_percent_exponent_frame, "models_123")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_reactive_power_percent_exponent,
         int32_t, int16_t, FIELDSCRIBE_BASE("models_123") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_reactive_power_percent_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -3210,9 +2960,8 @@ static void point_reactive_power_percent_exponent(fieldscribe_vector *v)
 
 static void point_module_current_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_CURRENT_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MODULE_CURRENT_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_REFERENCE("register", 40256))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_CURRENT_EXPONENT, "holding", 1U, NULL, FIELDSCRIBE_ONLY_READ((-10),
+        10) FIELDSCRIBE_REFERENCE("register", 40256))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_module_current_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(FRONIUS_DATAMANAGER_MODULE_CURRENT_EXPONENT, 0U),
@@ -3220,8 +2969,8 @@ static void point_module_current_exponent(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(fronius_datamanager_module_current_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_module_current_exponent_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_module_current_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_160") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_module_current_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -3232,9 +2981,8 @@ static void point_module_current_exponent(fieldscribe_vector *v)
 
 static void point_module_voltage_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_VOLTAGE_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MODULE_VOLTAGE_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_REFERENCE("register", 40257))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_VOLTAGE_EXPONENT, "holding", 1U, NULL, FIELDSCRIBE_ONLY_READ((-10),
+        10) FIELDSCRIBE_REFERENCE("register", 40257))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_module_voltage_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(FRONIUS_DATAMANAGER_MODULE_VOLTAGE_EXPONENT, 0U),
@@ -3242,8 +2990,8 @@ static void point_module_voltage_exponent(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(fronius_datamanager_module_voltage_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_module_voltage_exponent_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_module_voltage_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_160") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_module_voltage_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -3254,8 +3002,7 @@ static void point_module_voltage_exponent(fieldscribe_vector *v)
 
 static void point_module_power_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_POWER_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MODULE_POWER_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_POWER_EXPONENT, "holding", 1U, NULL, FIELDSCRIBE_ONLY_READ((-10), 10)
         FIELDSCRIBE_REFERENCE("register", 40258))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_module_power_exponent_decode, int32_t, int16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(FRONIUS_DATAMANAGER_MODULE_POWER_EXPONENT, 0U),
@@ -3263,8 +3010,8 @@ static void point_module_power_exponent(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(fronius_datamanager_module_power_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_module_power_exponent_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_module_power_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_160") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_module_power_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -3275,17 +3022,16 @@ static void point_module_power_exponent(fieldscribe_vector *v)
 
 static void point_module_energy_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_ENERGY_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MODULE_ENERGY_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_REFERENCE("register", 40259))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_ENERGY_EXPONENT, "holding", 1U, NULL, FIELDSCRIBE_ONLY_READ((-10),
+        10) FIELDSCRIBE_REFERENCE("register", 40259))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_module_energy_exponent_decode, int32_t, int16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(FRONIUS_DATAMANAGER_MODULE_ENERGY_EXPONENT, 0U),
         FIELDSCRIBE_INDEX(FRONIUS_DATAMANAGER_MODULE_ENERGY_EXPONENT))
     FIELDSCRIBE_WORDS(fronius_datamanager_module_energy_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_module_energy_exponent_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_module_energy_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_160") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_module_energy_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -3296,8 +3042,8 @@ static void point_module_energy_exponent(fieldscribe_vector *v)
 
 static void point_module_global_events(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_GLOBAL_EVENTS, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_MODULE_GLOBAL_EVENTS) FIELDSCRIBE_ONLY_READ(0, 4294967294)
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_GLOBAL_EVENTS, "holding",
+        FRONIUS_DATAMANAGER_MODULE_GLOBAL_EVENTS_WORDS, NULL, FIELDSCRIBE_ONLY_READ(0, 4294967294)
         FIELDSCRIBE_REFERENCE("register", 40260))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_module_global_events_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(FRONIUS_DATAMANAGER_MODULE_GLOBAL_EVENTS, 0U)
@@ -3306,8 +3052,8 @@ static void point_module_global_events(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(fronius_datamanager_module_global_events, uint32_t, 2U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_module_global_events_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u32)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_module_global_events, int64_t,
         uint32_t, FIELDSCRIBE_BASE("models_160") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_module_global_events_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -3318,17 +3064,16 @@ static void point_module_global_events(fieldscribe_vector *v)
 
 static void point_modules(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULES, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MODULES) FIELDSCRIBE_ONLY_READ(0, 65534) FIELDSCRIBE_REFERENCE("register",
-        40262))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULES, "holding", 1U, NULL, FIELDSCRIBE_ONLY_READ(0, 65534)
+        FIELDSCRIBE_REFERENCE("register", 40262))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_modules_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(FRONIUS_DATAMANAGER_MODULES, 0U),
         FIELDSCRIBE_INDEX(FRONIUS_DATAMANAGER_MODULES))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_modules_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_modules, int32_t, uint16_t,
         FIELDSCRIBE_BASE("models_160") FIELDSCRIBE_ALONE, (int)fronius_datamanager_modules_decode(raw FIELDSCRIBE_ALONE,
         &number))
@@ -3339,8 +3084,7 @@ static void point_modules(fieldscribe_vector *v)
 
 static void point_timestamp_period(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_TIMESTAMP_PERIOD, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_TIMESTAMP_PERIOD) FIELDSCRIBE_ONLY_READ(0, 65534)
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_TIMESTAMP_PERIOD, "holding", 1U, NULL, FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40263))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_timestamp_period_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(FRONIUS_DATAMANAGER_TIMESTAMP_PERIOD, 0U),
@@ -3348,8 +3092,8 @@ static void point_timestamp_period(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_timestamp_period_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_timestamp_period, int32_t, uint16_t,
         FIELDSCRIBE_BASE("models_160") FIELDSCRIBE_ALONE, (int)fronius_datamanager_timestamp_period_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -3360,8 +3104,7 @@ static void point_timestamp_period(fieldscribe_vector *v)
 
 static void point_module_input_index_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_INPUT_INDEX_1, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MODULE_INPUT_INDEX_1) FIELDSCRIBE_ONLY_READ(0, 65534)
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_INPUT_INDEX_1, "holding", 1U, NULL, FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40264))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_module_input_index_1_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(FRONIUS_DATAMANAGER_MODULE_INPUT_INDEX_1, 0U),
@@ -3369,8 +3112,8 @@ static void point_module_input_index_1(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_module_input_index_1_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_module_input_index_1, int32_t,
         uint16_t, FIELDSCRIBE_BASE("models_160") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_module_input_index_1_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -3381,8 +3124,7 @@ static void point_module_input_index_1(fieldscribe_vector *v)
 
 static void point_module_input_index_2(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_INPUT_INDEX_2, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MODULE_INPUT_INDEX_2) FIELDSCRIBE_ONLY_READ(0, 65534)
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_INPUT_INDEX_2, "holding", 1U, NULL, FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40284))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_module_input_index_2_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(FRONIUS_DATAMANAGER_MODULE_INPUT_INDEX_2, 0U),
@@ -3390,8 +3132,8 @@ static void point_module_input_index_2(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_module_input_index_2_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_module_input_index_2, int32_t,
         uint16_t, FIELDSCRIBE_BASE("models_160") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_module_input_index_2_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -3402,8 +3144,8 @@ static void point_module_input_index_2(fieldscribe_vector *v)
 
 static void point_module_name_index_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_NAME_INDEX_1, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_MODULE_NAME_INDEX_1) FIELDSCRIBE_REFERENCE("register", 40265))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_NAME_INDEX_1, "holding",
+        FRONIUS_DATAMANAGER_MODULE_NAME_INDEX_1_WORDS, NULL, FIELDSCRIBE_REFERENCE("register", 40265))
     FIELDSCRIBE_TEXT_DECODE(fronius_datamanager_module_name_index_1, FRONIUS_DATAMANAGER_MODULE_NAME_INDEX_1)
     FIELDSCRIBE_PLACE_OF_TEXT(FRONIUS_DATAMANAGER_MODULE_NAME_INDEX_1, fronius_datamanager_module_name_index_1,
         FIELDSCRIBE_INDEX(FRONIUS_DATAMANAGER_MODULE_NAME_INDEX_1))
@@ -3416,8 +3158,8 @@ static void point_module_name_index_1(fieldscribe_vector *v)
 
 static void point_module_name_index_2(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_NAME_INDEX_2, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_MODULE_NAME_INDEX_2) FIELDSCRIBE_REFERENCE("register", 40285))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_NAME_INDEX_2, "holding",
+        FRONIUS_DATAMANAGER_MODULE_NAME_INDEX_2_WORDS, NULL, FIELDSCRIBE_REFERENCE("register", 40285))
     FIELDSCRIBE_TEXT_DECODE(fronius_datamanager_module_name_index_2, FRONIUS_DATAMANAGER_MODULE_NAME_INDEX_2)
     FIELDSCRIBE_PLACE_OF_TEXT(FRONIUS_DATAMANAGER_MODULE_NAME_INDEX_2, fronius_datamanager_module_name_index_2,
         FIELDSCRIBE_INDEX(FRONIUS_DATAMANAGER_MODULE_NAME_INDEX_2))
@@ -3430,8 +3172,7 @@ static void point_module_name_index_2(fieldscribe_vector *v)
 
 static void point_module_current_index_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_CURRENT_INDEX_1, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MODULE_CURRENT_INDEX_1) FIELDSCRIBE_ONLY_READ(0, 65534)
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_CURRENT_INDEX_1, "holding", 1U, NULL, FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40273))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_module_current_index_1_decode, double, uint16_t,
         FIELDSCRIBE_WITH("module_current_exponent", int16_t))
@@ -3440,8 +3181,8 @@ static void point_module_current_index_1(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_module_current_index_1_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_module_current_index_1, uint16_t,
         uint16_t, FIELDSCRIBE_BASE("models_160") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_module_current_index_1, uint16_t))
@@ -3452,8 +3193,7 @@ static void point_module_current_index_1(fieldscribe_vector *v)
 
 static void point_module_current_index_2(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_CURRENT_INDEX_2, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MODULE_CURRENT_INDEX_2) FIELDSCRIBE_ONLY_READ(0, 65534)
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_CURRENT_INDEX_2, "holding", 1U, NULL, FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40293))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_module_current_index_2_decode, double, uint16_t,
         FIELDSCRIBE_WITH("module_current_exponent", int16_t))
@@ -3462,8 +3202,8 @@ static void point_module_current_index_2(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_module_current_index_2_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_module_current_index_2, uint16_t,
         uint16_t, FIELDSCRIBE_BASE("models_160") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_module_current_index_2, uint16_t))
@@ -3474,8 +3214,7 @@ static void point_module_current_index_2(fieldscribe_vector *v)
 
 static void point_module_voltage_index_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_VOLTAGE_INDEX_1, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MODULE_VOLTAGE_INDEX_1) FIELDSCRIBE_ONLY_READ(0, 65534)
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_VOLTAGE_INDEX_1, "holding", 1U, NULL, FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40274))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_module_voltage_index_1_decode, double, uint16_t,
         FIELDSCRIBE_WITH("module_voltage_exponent", int16_t))
@@ -3484,8 +3223,8 @@ static void point_module_voltage_index_1(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_module_voltage_index_1_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_module_voltage_index_1, uint16_t,
         uint16_t, FIELDSCRIBE_BASE("models_160") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_module_voltage_index_1, uint16_t))
@@ -3496,8 +3235,7 @@ static void point_module_voltage_index_1(fieldscribe_vector *v)
 
 static void point_module_voltage_index_2(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_VOLTAGE_INDEX_2, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MODULE_VOLTAGE_INDEX_2) FIELDSCRIBE_ONLY_READ(0, 65534)
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_VOLTAGE_INDEX_2, "holding", 1U, NULL, FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40294))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_module_voltage_index_2_decode, double, uint16_t,
         FIELDSCRIBE_WITH("module_voltage_exponent", int16_t))
@@ -3506,8 +3244,8 @@ static void point_module_voltage_index_2(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_module_voltage_index_2_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_module_voltage_index_2, uint16_t,
         uint16_t, FIELDSCRIBE_BASE("models_160") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_module_voltage_index_2, uint16_t))
@@ -3518,8 +3256,7 @@ static void point_module_voltage_index_2(fieldscribe_vector *v)
 
 static void point_module_power_index_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_POWER_INDEX_1, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MODULE_POWER_INDEX_1) FIELDSCRIBE_ONLY_READ(0, 65534)
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_POWER_INDEX_1, "holding", 1U, NULL, FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40275))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_module_power_index_1_decode, double, uint16_t,
         FIELDSCRIBE_WITH("module_power_exponent", int16_t))
@@ -3528,8 +3265,8 @@ static void point_module_power_index_1(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_module_power_index_1_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_module_power_index_1, uint16_t,
         uint16_t, FIELDSCRIBE_BASE("models_160") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_module_power_index_1, uint16_t))
@@ -3540,8 +3277,7 @@ static void point_module_power_index_1(fieldscribe_vector *v)
 
 static void point_module_power_index_2(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_POWER_INDEX_2, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MODULE_POWER_INDEX_2) FIELDSCRIBE_ONLY_READ(0, 65534)
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_POWER_INDEX_2, "holding", 1U, NULL, FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40295))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_module_power_index_2_decode, double, uint16_t,
         FIELDSCRIBE_WITH("module_power_exponent", int16_t))
@@ -3550,8 +3286,8 @@ static void point_module_power_index_2(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_module_power_index_2_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_module_power_index_2, uint16_t,
         uint16_t, FIELDSCRIBE_BASE("models_160") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_module_power_index_2, uint16_t))
@@ -3562,8 +3298,8 @@ static void point_module_power_index_2(fieldscribe_vector *v)
 
 static void point_module_energy_index_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_ENERGY_INDEX_1, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_MODULE_ENERGY_INDEX_1) FIELDSCRIBE_ONLY_READ(0, 4294967295)
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_ENERGY_INDEX_1, "holding",
+        FRONIUS_DATAMANAGER_MODULE_ENERGY_INDEX_1_WORDS, NULL, FIELDSCRIBE_ONLY_READ(0, 4294967295)
         FIELDSCRIBE_REFERENCE("register", 40276))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_module_energy_index_1_decode, double, uint32_t,
         FIELDSCRIBE_WITH("module_energy_exponent", int16_t))
@@ -3573,8 +3309,8 @@ static void point_module_energy_index_1(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(fronius_datamanager_module_energy_index_1, uint32_t, 2U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_module_energy_index_1_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u32)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_module_energy_index_1, uint32_t,
         uint32_t, FIELDSCRIBE_BASE("models_160") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_module_energy_index_1, uint32_t))
@@ -3582,8 +3318,8 @@ static void point_module_energy_index_1(fieldscribe_vector *v)
 
 static void point_module_energy_index_2(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_ENERGY_INDEX_2, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_MODULE_ENERGY_INDEX_2) FIELDSCRIBE_ONLY_READ(0, 4294967295)
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_ENERGY_INDEX_2, "holding",
+        FRONIUS_DATAMANAGER_MODULE_ENERGY_INDEX_2_WORDS, NULL, FIELDSCRIBE_ONLY_READ(0, 4294967295)
         FIELDSCRIBE_REFERENCE("register", 40296))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_module_energy_index_2_decode, double, uint32_t,
         FIELDSCRIBE_WITH("module_energy_exponent", int16_t))
@@ -3593,8 +3329,8 @@ static void point_module_energy_index_2(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(fronius_datamanager_module_energy_index_2, uint32_t, 2U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_module_energy_index_2_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u32)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_module_energy_index_2, uint32_t,
         uint32_t, FIELDSCRIBE_BASE("models_160") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_module_energy_index_2, uint32_t))
@@ -3602,8 +3338,8 @@ static void point_module_energy_index_2(fieldscribe_vector *v)
 
 static void point_module_timestamp_index_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_TIMESTAMP_INDEX_1, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_MODULE_TIMESTAMP_INDEX_1) FIELDSCRIBE_ONLY_READ(0, 4294967294)
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_TIMESTAMP_INDEX_1, "holding",
+        FRONIUS_DATAMANAGER_MODULE_TIMESTAMP_INDEX_1_WORDS, NULL, FIELDSCRIBE_ONLY_READ(0, 4294967294)
         FIELDSCRIBE_REFERENCE("register", 40278))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_module_timestamp_index_1_decode, int64_t, uint32_t,
         FIELDSCRIBE_ALONE)
@@ -3613,8 +3349,8 @@ static void point_module_timestamp_index_1(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(fronius_datamanager_module_timestamp_index_1, uint32_t, 2U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_module_timestamp_index_1_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u32)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_module_timestamp_index_1, int64_t,
         uint32_t, FIELDSCRIBE_BASE("models_160") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_module_timestamp_index_1_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -3625,8 +3361,8 @@ static void point_module_timestamp_index_1(fieldscribe_vector *v)
 
 static void point_module_timestamp_index_2(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_TIMESTAMP_INDEX_2, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_MODULE_TIMESTAMP_INDEX_2) FIELDSCRIBE_ONLY_READ(0, 4294967294)
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_TIMESTAMP_INDEX_2, "holding",
+        FRONIUS_DATAMANAGER_MODULE_TIMESTAMP_INDEX_2_WORDS, NULL, FIELDSCRIBE_ONLY_READ(0, 4294967294)
         FIELDSCRIBE_REFERENCE("register", 40298))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_module_timestamp_index_2_decode, int64_t, uint32_t,
         FIELDSCRIBE_ALONE)
@@ -3636,8 +3372,8 @@ static void point_module_timestamp_index_2(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(fronius_datamanager_module_timestamp_index_2, uint32_t, 2U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_module_timestamp_index_2_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u32)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_module_timestamp_index_2, int64_t,
         uint32_t, FIELDSCRIBE_BASE("models_160") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_module_timestamp_index_2_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -3648,9 +3384,8 @@ static void point_module_timestamp_index_2(fieldscribe_vector *v)
 
 static void point_module_temperature_index_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_TEMPERATURE_INDEX_1, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MODULE_TEMPERATURE_INDEX_1) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_REFERENCE("register", 40280))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_TEMPERATURE_INDEX_1, "holding", 1U, NULL,
+        FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_REFERENCE("register", 40280))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_module_temperature_index_1_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(FRONIUS_DATAMANAGER_MODULE_TEMPERATURE_INDEX_1, 0U),
@@ -3658,8 +3393,8 @@ static void point_module_temperature_index_1(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(fronius_datamanager_module_temperature_index_1, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_module_temperature_index_1_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_module_temperature_index_1, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_160") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_module_temperature_index_1_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -3670,9 +3405,8 @@ static void point_module_temperature_index_1(fieldscribe_vector *v)
 
 static void point_module_temperature_index_2(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_TEMPERATURE_INDEX_2, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MODULE_TEMPERATURE_INDEX_2) FIELDSCRIBE_ONLY_READ((-32767), 32767)
-        FIELDSCRIBE_REFERENCE("register", 40300))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_TEMPERATURE_INDEX_2, "holding", 1U, NULL,
+        FIELDSCRIBE_ONLY_READ((-32767), 32767) FIELDSCRIBE_REFERENCE("register", 40300))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_module_temperature_index_2_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(FRONIUS_DATAMANAGER_MODULE_TEMPERATURE_INDEX_2, 0U),
@@ -3680,8 +3414,8 @@ static void point_module_temperature_index_2(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(fronius_datamanager_module_temperature_index_2, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_module_temperature_index_2_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_module_temperature_index_2, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_160") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_module_temperature_index_2_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -3692,27 +3426,19 @@ static void point_module_temperature_index_2(fieldscribe_vector *v)
 
 static void point_module_operating_state_index_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_OPERATING_STATE_INDEX_1, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MODULE_OPERATING_STATE_INDEX_1) FIELDSCRIBE_ONLY_READ(1, 8)
-        FIELDSCRIBE_REFERENCE("register", 40281))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_OPERATING_STATE_INDEX_1, "holding", 1U, NULL,
+        FIELDSCRIBE_ONLY_READ(1, 8) FIELDSCRIBE_REFERENCE("register", 40281))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_module_operating_state_index_1_decode, int32_t, uint16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_NAME(fronius_datamanager_operating_state_name, int32_t)
-    FIELDSCRIBE_NAMED("standby", FRONIUS_DATAMANAGER_OPERATING_STATE_STANDBY)
-    FIELDSCRIBE_NAMED("fault", FRONIUS_DATAMANAGER_OPERATING_STATE_FAULT)
-    FIELDSCRIBE_NAMED("shutting_down", FRONIUS_DATAMANAGER_OPERATING_STATE_SHUTTING_DOWN)
-    FIELDSCRIBE_NAMED("throttled", FRONIUS_DATAMANAGER_OPERATING_STATE_THROTTLED)
-    FIELDSCRIBE_NAMED("mppt", FRONIUS_DATAMANAGER_OPERATING_STATE_MPPT)
-    FIELDSCRIBE_NAMED("starting", FRONIUS_DATAMANAGER_OPERATING_STATE_STARTING)
-    FIELDSCRIBE_NAMED("sleeping", FRONIUS_DATAMANAGER_OPERATING_STATE_SLEEPING)
-    FIELDSCRIBE_NAMED("off", FRONIUS_DATAMANAGER_OPERATING_STATE_OFF)
+    FIELDSCRIBE_NAMES_OF(operating_state)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(FRONIUS_DATAMANAGER_MODULE_OPERATING_STATE_INDEX_1, 0U),
         FIELDSCRIBE_INDEX(FRONIUS_DATAMANAGER_MODULE_OPERATING_STATE_INDEX_1))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_module_operating_state_index_1_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_module_operating_state_index_1,
         int32_t, uint16_t, FIELDSCRIBE_BASE("models_160") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_module_operating_state_index_1_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -3723,27 +3449,19 @@ static void point_module_operating_state_index_1(fieldscribe_vector *v)
 
 static void point_module_operating_state_index_2(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_OPERATING_STATE_INDEX_2, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MODULE_OPERATING_STATE_INDEX_2) FIELDSCRIBE_ONLY_READ(1, 8)
-        FIELDSCRIBE_REFERENCE("register", 40301))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_OPERATING_STATE_INDEX_2, "holding", 1U, NULL,
+        FIELDSCRIBE_ONLY_READ(1, 8) FIELDSCRIBE_REFERENCE("register", 40301))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_module_operating_state_index_2_decode, int32_t, uint16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_NAME(fronius_datamanager_operating_state_name, int32_t)
-    FIELDSCRIBE_NAMED("standby", FRONIUS_DATAMANAGER_OPERATING_STATE_STANDBY)
-    FIELDSCRIBE_NAMED("fault", FRONIUS_DATAMANAGER_OPERATING_STATE_FAULT)
-    FIELDSCRIBE_NAMED("shutting_down", FRONIUS_DATAMANAGER_OPERATING_STATE_SHUTTING_DOWN)
-    FIELDSCRIBE_NAMED("throttled", FRONIUS_DATAMANAGER_OPERATING_STATE_THROTTLED)
-    FIELDSCRIBE_NAMED("mppt", FRONIUS_DATAMANAGER_OPERATING_STATE_MPPT)
-    FIELDSCRIBE_NAMED("starting", FRONIUS_DATAMANAGER_OPERATING_STATE_STARTING)
-    FIELDSCRIBE_NAMED("sleeping", FRONIUS_DATAMANAGER_OPERATING_STATE_SLEEPING)
-    FIELDSCRIBE_NAMED("off", FRONIUS_DATAMANAGER_OPERATING_STATE_OFF)
+    FIELDSCRIBE_NAMES_OF(operating_state)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(FRONIUS_DATAMANAGER_MODULE_OPERATING_STATE_INDEX_2, 0U),
         FIELDSCRIBE_INDEX(FRONIUS_DATAMANAGER_MODULE_OPERATING_STATE_INDEX_2))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_module_operating_state_index_2_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_module_operating_state_index_2,
         int32_t, uint16_t, FIELDSCRIBE_BASE("models_160") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_module_operating_state_index_2_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -3754,8 +3472,8 @@ static void point_module_operating_state_index_2(fieldscribe_vector *v)
 
 static void point_module_events_index_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_EVENTS_INDEX_1, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_MODULE_EVENTS_INDEX_1) FIELDSCRIBE_ONLY_READ(0, 4294967294)
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_EVENTS_INDEX_1, "holding",
+        FRONIUS_DATAMANAGER_MODULE_EVENTS_INDEX_1_WORDS, NULL, FIELDSCRIBE_ONLY_READ(0, 4294967294)
         FIELDSCRIBE_REFERENCE("register", 40282))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_module_events_index_1_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(FRONIUS_DATAMANAGER_MODULE_EVENTS_INDEX_1, 0U)
@@ -3764,8 +3482,8 @@ static void point_module_events_index_1(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(fronius_datamanager_module_events_index_1, uint32_t, 2U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_module_events_index_1_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u32)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_module_events_index_1, int64_t,
         uint32_t, FIELDSCRIBE_BASE("models_160") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_module_events_index_1_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -3776,8 +3494,8 @@ static void point_module_events_index_1(fieldscribe_vector *v)
 
 static void point_module_events_index_2(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_EVENTS_INDEX_2, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_MODULE_EVENTS_INDEX_2) FIELDSCRIBE_ONLY_READ(0, 4294967294)
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODULE_EVENTS_INDEX_2, "holding",
+        FRONIUS_DATAMANAGER_MODULE_EVENTS_INDEX_2_WORDS, NULL, FIELDSCRIBE_ONLY_READ(0, 4294967294)
         FIELDSCRIBE_REFERENCE("register", 40302))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_module_events_index_2_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(FRONIUS_DATAMANAGER_MODULE_EVENTS_INDEX_2, 0U)
@@ -3786,8 +3504,8 @@ static void point_module_events_index_2(fieldscribe_vector *v)
     FIELDSCRIBE_WORDS(fronius_datamanager_module_events_index_2, uint32_t, 2U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_module_events_index_2_frame, "models_160")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u32)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_module_events_index_2, int64_t,
         uint32_t, FIELDSCRIBE_BASE("models_160") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_module_events_index_2_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -3798,16 +3516,15 @@ static void point_module_events_index_2(fieldscribe_vector *v)
 
 static void point_maximum_charge_power(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_CHARGE_POWER, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MAXIMUM_CHARGE_POWER) FIELDSCRIBE_ONLY_READ(0, 65534)
-        FIELDSCRIBE_CODE("WchaMax") FIELDSCRIBE_REFERENCE("register", 40306))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_CHARGE_POWER, "holding", 1U, "WchaMax", FIELDSCRIBE_ONLY_READ(0,
+        65534) FIELDSCRIBE_REFERENCE("register", 40306))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_maximum_charge_power_decode, double, uint16_t,
         FIELDSCRIBE_WITH("maximum_charge_power_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_maximum_charge_power_frame, "models_124")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_maximum_charge_power, uint16_t,
         uint16_t, FIELDSCRIBE_BASE("models_124") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_maximum_charge_power, uint16_t))
@@ -3818,16 +3535,15 @@ static void point_maximum_charge_power(fieldscribe_vector *v)
 
 static void point_charge_ramp_rate(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_CHARGE_RAMP_RATE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_CHARGE_RAMP_RATE) FIELDSCRIBE_ONLY_READ(0, 65534)
-        FIELDSCRIBE_CODE("WchaGra") FIELDSCRIBE_REFERENCE("register", 40307))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_CHARGE_RAMP_RATE, "holding", 1U, "WchaGra", FIELDSCRIBE_ONLY_READ(0, 65534)
+        FIELDSCRIBE_REFERENCE("register", 40307))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_charge_ramp_rate_decode, double, uint16_t,
         FIELDSCRIBE_WITH("charge_ramp_rate_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_charge_ramp_rate_frame, "models_124")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_charge_ramp_rate, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_124") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_charge_ramp_rate,
         uint16_t))
@@ -3838,16 +3554,15 @@ static void point_charge_ramp_rate(fieldscribe_vector *v)
 
 static void point_discharge_ramp_rate(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_DISCHARGE_RAMP_RATE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_DISCHARGE_RAMP_RATE) FIELDSCRIBE_ONLY_READ(0, 65534)
-        FIELDSCRIBE_CODE("WdisChaGra") FIELDSCRIBE_REFERENCE("register", 40308))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_DISCHARGE_RAMP_RATE, "holding", 1U, "WdisChaGra", FIELDSCRIBE_ONLY_READ(0,
+        65534) FIELDSCRIBE_REFERENCE("register", 40308))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_discharge_ramp_rate_decode, double, uint16_t,
         FIELDSCRIBE_WITH("charge_ramp_rate_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_discharge_ramp_rate_frame, "models_124")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_discharge_ramp_rate, uint16_t,
         uint16_t, FIELDSCRIBE_BASE("models_124") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_discharge_ramp_rate, uint16_t))
@@ -3858,10 +3573,8 @@ static void point_discharge_ramp_rate(fieldscribe_vector *v)
 
 static void point_storage_control_mode(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_STORAGE_CONTROL_MODE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_STORAGE_CONTROL_MODE)
-        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_STORAGE_CONTROL_MODE) FIELDSCRIBE_CODE("StorCtl_Mod")
-        FIELDSCRIBE_REFERENCE("register", 40309))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_STORAGE_CONTROL_MODE, "holding", 1U, "StorCtl_Mod",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_STORAGE_CONTROL_MODE) FIELDSCRIBE_REFERENCE("register", 40309))
     FIELDSCRIBE_CHECK(fronius_datamanager_storage_control_mode_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(fronius_datamanager_storage_control_mode_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_storage_control_mode_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
@@ -3869,9 +3582,7 @@ static void point_storage_control_mode(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_storage_control_mode_frame, "models_124")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
-    FIELDSCRIBE_WRITE(moved, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_storage_control_mode, int32_t,
         uint16_t, FIELDSCRIBE_BASE("models_124") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_storage_control_mode_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -3879,12 +3590,8 @@ static void point_storage_control_mode(fieldscribe_vector *v)
         int32_t, uint16_t, FIELDSCRIBE_BASE("models_124") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_storage_control_mode_decode(raw FIELDSCRIBE_ALONE, &number),
         (int)fronius_datamanager_storage_control_mode_encode(number FIELDSCRIBE_ALONE, &again))
-    FIELDSCRIBE_TRUTH("charge", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_STORAGE_CONTROL_MODE_CHARGE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_STORAGE_CONTROL_MODE_CHARGE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("discharge", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        FRONIUS_DATAMANAGER_STORAGE_CONTROL_MODE_DISCHARGE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        FRONIUS_DATAMANAGER_STORAGE_CONTROL_MODE_DISCHARGE_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("charge", uint16_t, FRONIUS_DATAMANAGER_STORAGE_CONTROL_MODE_CHARGE_MASK, 0U)
+    FIELDSCRIBE_TRUTH("discharge", uint16_t, FRONIUS_DATAMANAGER_STORAGE_CONTROL_MODE_DISCHARGE_MASK, 0U)
     FIELDSCRIBE_SPECIAL("not_implemented", FRONIUS_DATAMANAGER_STORAGE_U16_NOT_IMPLEMENTED,
         FRONIUS_DATAMANAGER_STORAGE_U16_NOT_IMPLEMENTED)
     FIELDSCRIBE_SPECIAL_NAME(fronius_datamanager_storage_control_mode, uint16_t)
@@ -3892,16 +3599,15 @@ static void point_storage_control_mode(fieldscribe_vector *v)
 
 static void point_maximum_charge_apparent_power(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_CHARGE_APPARENT_POWER, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MAXIMUM_CHARGE_APPARENT_POWER) FIELDSCRIBE_ONLY_READ(0, 65534)
-        FIELDSCRIBE_CODE("VAChaMax") FIELDSCRIBE_REFERENCE("register", 40310))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_CHARGE_APPARENT_POWER, "holding", 1U, "VAChaMax",
+        FIELDSCRIBE_ONLY_READ(0, 65534) FIELDSCRIBE_REFERENCE("register", 40310))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_maximum_charge_apparent_power_decode, double, uint16_t,
         FIELDSCRIBE_WITH("maximum_charge_apparent_power_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_maximum_charge_apparent_power_frame, "models_124")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_maximum_charge_apparent_power,
         uint16_t, uint16_t, FIELDSCRIBE_BASE("models_124") FIELDSCRIBE_ALONE,
         FIELDSCRIBE_DECODE_RAW(fronius_datamanager_maximum_charge_apparent_power, uint16_t))
@@ -3912,9 +3618,8 @@ static void point_maximum_charge_apparent_power(fieldscribe_vector *v)
 
 static void point_minimum_reserve(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MINIMUM_RESERVE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MINIMUM_RESERVE) FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_MINIMUM_RESERVE)
-        FIELDSCRIBE_CODE("MinRsvPct") FIELDSCRIBE_REFERENCE("register", 40311))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MINIMUM_RESERVE, "holding", 1U, "MinRsvPct",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_MINIMUM_RESERVE) FIELDSCRIBE_REFERENCE("register", 40311))
     FIELDSCRIBE_CHECK(fronius_datamanager_minimum_reserve_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE(fronius_datamanager_minimum_reserve_encode, double, uint16_t,
         FIELDSCRIBE_WITH("minimum_reserve_exponent", int16_t))
@@ -3924,9 +3629,7 @@ static void point_minimum_reserve(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_minimum_reserve_frame, "models_124")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
-    FIELDSCRIBE_WRITE(moved, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_minimum_reserve, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_124") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_minimum_reserve,
         uint16_t))
@@ -3941,16 +3644,15 @@ static void point_minimum_reserve(fieldscribe_vector *v)
 
 static void point_state_of_charge(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_STATE_OF_CHARGE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_STATE_OF_CHARGE) FIELDSCRIBE_ONLY_READ(0, 65534)
-        FIELDSCRIBE_CODE("ChaState") FIELDSCRIBE_REFERENCE("register", 40312))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_STATE_OF_CHARGE, "holding", 1U, "ChaState", FIELDSCRIBE_ONLY_READ(0, 65534)
+        FIELDSCRIBE_REFERENCE("register", 40312))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_state_of_charge_decode, double, uint16_t,
         FIELDSCRIBE_WITH("state_of_charge_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_state_of_charge_frame, "models_124")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_state_of_charge, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_124") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_state_of_charge,
         uint16_t))
@@ -3961,16 +3663,15 @@ static void point_state_of_charge(fieldscribe_vector *v)
 
 static void point_available_charge(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_AVAILABLE_CHARGE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_AVAILABLE_CHARGE) FIELDSCRIBE_ONLY_READ(0, 65534)
-        FIELDSCRIBE_CODE("StorAval") FIELDSCRIBE_REFERENCE("register", 40313))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_AVAILABLE_CHARGE, "holding", 1U, "StorAval", FIELDSCRIBE_ONLY_READ(0, 65534)
+        FIELDSCRIBE_REFERENCE("register", 40313))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_available_charge_decode, double, uint16_t,
         FIELDSCRIBE_WITH("available_charge_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_available_charge_frame, "models_124")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_available_charge, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_124") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_available_charge,
         uint16_t))
@@ -3981,16 +3682,15 @@ static void point_available_charge(fieldscribe_vector *v)
 
 static void point_battery_voltage(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_BATTERY_VOLTAGE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_BATTERY_VOLTAGE) FIELDSCRIBE_ONLY_READ(0, 65534) FIELDSCRIBE_CODE("InBatV")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_BATTERY_VOLTAGE, "holding", 1U, "InBatV", FIELDSCRIBE_ONLY_READ(0, 65534)
         FIELDSCRIBE_REFERENCE("register", 40314))
     FIELDSCRIBE_TRY_DECODE(fronius_datamanager_battery_voltage_decode, double, uint16_t,
         FIELDSCRIBE_WITH("battery_voltage_exponent", int16_t))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_battery_voltage_frame, "models_124")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_battery_voltage, uint16_t, uint16_t,
         FIELDSCRIBE_BASE("models_124") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_battery_voltage,
         uint16_t))
@@ -4001,8 +3701,7 @@ static void point_battery_voltage(fieldscribe_vector *v)
 
 static void point_charge_state(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_CHARGE_STATE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_CHARGE_STATE) FIELDSCRIBE_ONLY_READ(1, 7) FIELDSCRIBE_CODE("ChaSt")
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_CHARGE_STATE, "holding", 1U, "ChaSt", FIELDSCRIBE_ONLY_READ(1, 7)
         FIELDSCRIBE_REFERENCE("register", 40315))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_charge_state_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_NAME(fronius_datamanager_charge_state_name, int32_t)
@@ -4016,8 +3715,8 @@ static void point_charge_state(fieldscribe_vector *v)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_charge_state_frame, "models_124")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_charge_state, int32_t, uint16_t,
         FIELDSCRIBE_BASE("models_124") FIELDSCRIBE_ALONE, (int)fronius_datamanager_charge_state_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -4028,9 +3727,8 @@ static void point_charge_state(fieldscribe_vector *v)
 
 static void point_discharge_limit(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_DISCHARGE_LIMIT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_DISCHARGE_LIMIT) FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_DISCHARGE_LIMIT)
-        FIELDSCRIBE_CODE("OutWRte") FIELDSCRIBE_REFERENCE("register", 40316))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_DISCHARGE_LIMIT, "holding", 1U, "OutWRte",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_DISCHARGE_LIMIT) FIELDSCRIBE_REFERENCE("register", 40316))
     FIELDSCRIBE_CHECK(fronius_datamanager_discharge_limit_check, int16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE(fronius_datamanager_discharge_limit_encode, double, int16_t,
         FIELDSCRIBE_WITH("storage_limits_exponent", int16_t))
@@ -4040,9 +3738,7 @@ static void point_discharge_limit(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_discharge_limit_frame, "models_124")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
-    FIELDSCRIBE_WRITE(moved, s16, int16_t)
+    FIELDSCRIBE_READ_WRITE(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_discharge_limit, int16_t, int16_t,
         FIELDSCRIBE_BASE("models_124") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_discharge_limit,
         int16_t))
@@ -4057,9 +3753,8 @@ static void point_discharge_limit(fieldscribe_vector *v)
 
 static void point_charge_limit(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_CHARGE_LIMIT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_CHARGE_LIMIT) FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_CHARGE_LIMIT)
-        FIELDSCRIBE_CODE("InWRte") FIELDSCRIBE_REFERENCE("register", 40317))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_CHARGE_LIMIT, "holding", 1U, "InWRte",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_CHARGE_LIMIT) FIELDSCRIBE_REFERENCE("register", 40317))
     FIELDSCRIBE_CHECK(fronius_datamanager_charge_limit_check, int16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE(fronius_datamanager_charge_limit_encode, double, int16_t,
         FIELDSCRIBE_WITH("storage_limits_exponent", int16_t))
@@ -4069,9 +3764,7 @@ static void point_charge_limit(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_charge_limit_frame, "models_124")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
-    FIELDSCRIBE_WRITE(moved, s16, int16_t)
+    FIELDSCRIBE_READ_WRITE(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_charge_limit, int16_t, int16_t,
         FIELDSCRIBE_BASE("models_124") FIELDSCRIBE_ALONE, FIELDSCRIBE_DECODE_RAW(fronius_datamanager_charge_limit,
         int16_t))
@@ -4086,15 +3779,14 @@ static void point_charge_limit(fieldscribe_vector *v)
 
 static void point_storage_window(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_STORAGE_WINDOW, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_STORAGE_WINDOW) FIELDSCRIBE_ONLY_READ(0, 65534)
-        FIELDSCRIBE_CODE("InOutWRte_WinTms") FIELDSCRIBE_REFERENCE("register", 40318))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_STORAGE_WINDOW, "holding", 1U, "InOutWRte_WinTms", FIELDSCRIBE_ONLY_READ(0,
+        65534) FIELDSCRIBE_REFERENCE("register", 40318))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_storage_window_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_storage_window_frame, "models_124")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_storage_window, int32_t, uint16_t,
         FIELDSCRIBE_BASE("models_124") FIELDSCRIBE_ALONE, (int)fronius_datamanager_storage_window_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -4105,15 +3797,14 @@ static void point_storage_window(fieldscribe_vector *v)
 
 static void point_storage_timeout(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_STORAGE_TIMEOUT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_STORAGE_TIMEOUT) FIELDSCRIBE_ONLY_READ(0, 65534)
-        FIELDSCRIBE_CODE("InOutWRte_RvrtTms") FIELDSCRIBE_REFERENCE("register", 40319))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_STORAGE_TIMEOUT, "holding", 1U, "InOutWRte_RvrtTms",
+        FIELDSCRIBE_ONLY_READ(0, 65534) FIELDSCRIBE_REFERENCE("register", 40319))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_storage_timeout_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_storage_timeout_frame, "models_124")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_storage_timeout, int32_t, uint16_t,
         FIELDSCRIBE_BASE("models_124") FIELDSCRIBE_ALONE, (int)fronius_datamanager_storage_timeout_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -4124,15 +3815,14 @@ static void point_storage_timeout(fieldscribe_vector *v)
 
 static void point_storage_ramp_time(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_STORAGE_RAMP_TIME, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_STORAGE_RAMP_TIME) FIELDSCRIBE_ONLY_READ(0, 65534)
-        FIELDSCRIBE_CODE("InOutWRte_RmpTms") FIELDSCRIBE_REFERENCE("register", 40320))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_STORAGE_RAMP_TIME, "holding", 1U, "InOutWRte_RmpTms",
+        FIELDSCRIBE_ONLY_READ(0, 65534) FIELDSCRIBE_REFERENCE("register", 40320))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_storage_ramp_time_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_storage_ramp_time_frame, "models_124")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_storage_ramp_time, int32_t, uint16_t,
         FIELDSCRIBE_BASE("models_124") FIELDSCRIBE_ALONE, (int)fronius_datamanager_storage_ramp_time_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -4143,9 +3833,8 @@ static void point_storage_ramp_time(fieldscribe_vector *v)
 
 static void point_grid_charging(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_GRID_CHARGING, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_GRID_CHARGING) FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_GRID_CHARGING)
-        FIELDSCRIBE_CODE("ChaGriSet") FIELDSCRIBE_REFERENCE("register", 40321))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_GRID_CHARGING, "holding", 1U, "ChaGriSet",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_GRID_CHARGING) FIELDSCRIBE_REFERENCE("register", 40321))
     FIELDSCRIBE_CHECK(fronius_datamanager_grid_charging_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(fronius_datamanager_grid_charging_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_grid_charging_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
@@ -4156,9 +3845,7 @@ static void point_grid_charging(fieldscribe_vector *v)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_rw, fronius_datamanager_grid_charging_frame, "models_124")
     FIELDSCRIBE_READ_AT_BASE
     FIELDSCRIBE_WRITE_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, u16, uint16_t)
-    FIELDSCRIBE_WRITE(moved, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(moved, u16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_grid_charging, int32_t, uint16_t,
         FIELDSCRIBE_BASE("models_124") FIELDSCRIBE_ALONE, (int)fronius_datamanager_grid_charging_decode(raw
         FIELDSCRIBE_ALONE, &number))
@@ -4172,16 +3859,15 @@ static void point_grid_charging(fieldscribe_vector *v)
 
 static void point_maximum_charge_power_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_CHARGE_POWER_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MAXIMUM_CHARGE_POWER_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("WchaMax_SF") FIELDSCRIBE_REFERENCE("register", 40322))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_CHARGE_POWER_EXPONENT, "holding", 1U, "WchaMax_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40322))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_maximum_charge_power_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_maximum_charge_power_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_maximum_charge_power_exponent_frame, "models_124")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_maximum_charge_power_exponent,
         int32_t, int16_t, FIELDSCRIBE_BASE("models_124") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_maximum_charge_power_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -4192,16 +3878,15 @@ static void point_maximum_charge_power_exponent(fieldscribe_vector *v)
 
 static void point_charge_ramp_rate_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_CHARGE_RAMP_RATE_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_CHARGE_RAMP_RATE_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("WchaDisChaGra_SF") FIELDSCRIBE_REFERENCE("register", 40323))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_CHARGE_RAMP_RATE_EXPONENT, "holding", 1U, "WchaDisChaGra_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40323))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_charge_ramp_rate_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_charge_ramp_rate_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_charge_ramp_rate_exponent_frame, "models_124")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_charge_ramp_rate_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_124") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_charge_ramp_rate_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -4212,17 +3897,16 @@ static void point_charge_ramp_rate_exponent(fieldscribe_vector *v)
 
 static void point_maximum_charge_apparent_power_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_CHARGE_APPARENT_POWER_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MAXIMUM_CHARGE_APPARENT_POWER_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("VAChaMax_SF") FIELDSCRIBE_REFERENCE("register", 40324))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MAXIMUM_CHARGE_APPARENT_POWER_EXPONENT, "holding", 1U, "VAChaMax_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40324))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_maximum_charge_apparent_power_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_maximum_charge_apparent_power_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_maximum_charge_apparent_power_exponent_frame,
         "models_124")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device,
         fronius_datamanager_read_maximum_charge_apparent_power_exponent, int32_t, int16_t,
         FIELDSCRIBE_BASE("models_124") FIELDSCRIBE_ALONE,
@@ -4234,16 +3918,15 @@ static void point_maximum_charge_apparent_power_exponent(fieldscribe_vector *v)
 
 static void point_minimum_reserve_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MINIMUM_RESERVE_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MINIMUM_RESERVE_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("MinRsvPct_SF") FIELDSCRIBE_REFERENCE("register", 40325))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MINIMUM_RESERVE_EXPONENT, "holding", 1U, "MinRsvPct_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40325))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_minimum_reserve_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_minimum_reserve_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_minimum_reserve_exponent_frame, "models_124")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_minimum_reserve_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_124") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_minimum_reserve_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -4254,16 +3937,15 @@ static void point_minimum_reserve_exponent(fieldscribe_vector *v)
 
 static void point_state_of_charge_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_STATE_OF_CHARGE_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_STATE_OF_CHARGE_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("ChaState_SF") FIELDSCRIBE_REFERENCE("register", 40326))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_STATE_OF_CHARGE_EXPONENT, "holding", 1U, "ChaState_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40326))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_state_of_charge_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_state_of_charge_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_state_of_charge_exponent_frame, "models_124")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_state_of_charge_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_124") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_state_of_charge_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -4274,16 +3956,15 @@ static void point_state_of_charge_exponent(fieldscribe_vector *v)
 
 static void point_available_charge_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_AVAILABLE_CHARGE_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_AVAILABLE_CHARGE_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("StorAval_SF") FIELDSCRIBE_REFERENCE("register", 40327))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_AVAILABLE_CHARGE_EXPONENT, "holding", 1U, "StorAval_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40327))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_available_charge_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_available_charge_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_available_charge_exponent_frame, "models_124")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_available_charge_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_124") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_available_charge_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -4294,16 +3975,15 @@ static void point_available_charge_exponent(fieldscribe_vector *v)
 
 static void point_battery_voltage_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_BATTERY_VOLTAGE_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_BATTERY_VOLTAGE_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("InBatV_SF") FIELDSCRIBE_REFERENCE("register", 40328))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_BATTERY_VOLTAGE_EXPONENT, "holding", 1U, "InBatV_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40328))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_battery_voltage_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_battery_voltage_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_battery_voltage_exponent_frame, "models_124")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_battery_voltage_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_124") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_battery_voltage_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -4314,16 +3994,15 @@ static void point_battery_voltage_exponent(fieldscribe_vector *v)
 
 static void point_storage_limits_exponent(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_STORAGE_LIMITS_EXPONENT, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_STORAGE_LIMITS_EXPONENT) FIELDSCRIBE_ONLY_READ((-10), 10)
-        FIELDSCRIBE_CODE("InOutWRte_SF") FIELDSCRIBE_REFERENCE("register", 40329))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_STORAGE_LIMITS_EXPONENT, "holding", 1U, "InOutWRte_SF",
+        FIELDSCRIBE_ONLY_READ((-10), 10) FIELDSCRIBE_REFERENCE("register", 40329))
     FIELDSCRIBE_TRY_DECODE_COUNT(fronius_datamanager_storage_limits_exponent_decode, int32_t, int16_t,
         FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_storage_limits_exponent, int16_t, 1U)
     FIELDSCRIBE_AT_BASE(fieldscribe_modbus_r, fronius_datamanager_storage_limits_exponent_frame, "models_124")
     FIELDSCRIBE_READ_AT_BASE
-    FIELDSCRIBE_LIES(moved, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(moved, s16, int16_t)
+    FIELDSCRIBE_LIES_ALONE(moved)
+    FIELDSCRIBE_READ(moved, s16)
     FIELDSCRIBE_CALL_READ_BY(fronius_datamanager_device, fronius_datamanager_read_storage_limits_exponent, int32_t,
         int16_t, FIELDSCRIBE_BASE("models_124") FIELDSCRIBE_ALONE,
         (int)fronius_datamanager_storage_limits_exponent_decode(raw FIELDSCRIBE_ALONE, &number))
@@ -4334,153 +4013,123 @@ static void point_storage_limits_exponent(fieldscribe_vector *v)
 
 static void point_delete_data(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_DELETE_DATA, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_DELETE_DATA) FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_DELETE_DATA)
-        FIELDSCRIBE_CODE("F_Delete_Data") FIELDSCRIBE_REFERENCE("register", 212))
-    FIELDSCRIBE_CHECK(fronius_datamanager_delete_data_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(fronius_datamanager_delete_data_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(fronius_datamanager_delete_data_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_DELETE_DATA, "holding", 1U, "F_Delete_Data",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_DELETE_DATA) FIELDSCRIBE_REFERENCE("register", 212))
+    FIELDSCRIBE_PLAIN(fronius_datamanager_delete_data, int32_t, uint16_t)
     FIELDSCRIBE_NAME(fronius_datamanager_delete_data_name, int32_t)
     FIELDSCRIBE_NAMED("delete", FRONIUS_DATAMANAGER_DELETE_DATA_DELETE)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(fronius_datamanager_delete_data_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(fronius_datamanager_delete_data_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE(fronius_datamanager_delete_data_frame, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(fronius_datamanager_delete_data_frame, u16)
     FIELDSCRIBE_CALLS(fronius_datamanager, delete_data, int32_t, uint16_t, PLAIN)
 }
 
 static void point_store_data(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_STORE_DATA, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_STORE_DATA) FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_STORE_DATA)
-        FIELDSCRIBE_CODE("F_Store_Data") FIELDSCRIBE_REFERENCE("register", 213))
-    FIELDSCRIBE_CHECK(fronius_datamanager_store_data_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(fronius_datamanager_store_data_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(fronius_datamanager_store_data_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_STORE_DATA, "holding", 1U, "F_Store_Data",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_STORE_DATA) FIELDSCRIBE_REFERENCE("register", 213))
+    FIELDSCRIBE_PLAIN(fronius_datamanager_store_data, int32_t, uint16_t)
     FIELDSCRIBE_NAME(fronius_datamanager_store_data_name, int32_t)
     FIELDSCRIBE_NAMED("store", FRONIUS_DATAMANAGER_STORE_DATA_STORE)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(fronius_datamanager_store_data_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(fronius_datamanager_store_data_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE(fronius_datamanager_store_data_frame, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(fronius_datamanager_store_data_frame, u16)
     FIELDSCRIBE_CALLS(fronius_datamanager, store_data, int32_t, uint16_t, PLAIN)
 }
 
 static void point_active_state_code(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_ACTIVE_STATE_CODE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_ACTIVE_STATE_CODE) FIELDSCRIBE_ONLY_READ(0, 65535)
-        FIELDSCRIBE_CODE("F_Active_State_Code") FIELDSCRIBE_REFERENCE("register", 214))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_ACTIVE_STATE_CODE, "holding", 1U, "F_Active_State_Code",
+        FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_REFERENCE("register", 214))
     FIELDSCRIBE_DECODE_COUNT(fronius_datamanager_active_state_code_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(fronius_datamanager_active_state_code_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(fronius_datamanager_active_state_code_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(fronius_datamanager_active_state_code_frame)
+    FIELDSCRIBE_READ(fronius_datamanager_active_state_code_frame, u16)
     FIELDSCRIBE_CALL_READ(fronius_datamanager, active_state_code, int32_t, uint16_t, PLAIN)
 }
 
 static void point_reset_all_event_flags(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RESET_ALL_EVENT_FLAGS, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_RESET_ALL_EVENT_FLAGS)
-        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_RESET_ALL_EVENT_FLAGS) FIELDSCRIBE_CODE("F_Reset_All_Event_Flags")
-        FIELDSCRIBE_REFERENCE("register", 215))
-    FIELDSCRIBE_CHECK(fronius_datamanager_reset_all_event_flags_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(fronius_datamanager_reset_all_event_flags_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(fronius_datamanager_reset_all_event_flags_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_RESET_ALL_EVENT_FLAGS, "holding", 1U, "F_Reset_All_Event_Flags",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_RESET_ALL_EVENT_FLAGS) FIELDSCRIBE_REFERENCE("register", 215))
+    FIELDSCRIBE_PLAIN(fronius_datamanager_reset_all_event_flags, int32_t, uint16_t)
     FIELDSCRIBE_NAME(fronius_datamanager_reset_all_event_flags_name, int32_t)
     FIELDSCRIBE_NAMED("reset", FRONIUS_DATAMANAGER_RESET_ALL_EVENT_FLAGS_RESET)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(fronius_datamanager_reset_all_event_flags_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(fronius_datamanager_reset_all_event_flags_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE(fronius_datamanager_reset_all_event_flags_frame, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(fronius_datamanager_reset_all_event_flags_frame, u16)
     FIELDSCRIBE_CALLS(fronius_datamanager, reset_all_event_flags, int32_t, uint16_t, PLAIN)
 }
 
 static void point_model_type(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODEL_TYPE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_MODEL_TYPE) FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_MODEL_TYPE)
-        FIELDSCRIBE_CODE("F_ModelType") FIELDSCRIBE_REFERENCE("register", 216))
-    FIELDSCRIBE_CHECK(fronius_datamanager_model_type_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(fronius_datamanager_model_type_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(fronius_datamanager_model_type_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_MODEL_TYPE, "holding", 1U, "F_ModelType",
+        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_MODEL_TYPE) FIELDSCRIBE_REFERENCE("register", 216))
+    FIELDSCRIBE_PLAIN(fronius_datamanager_model_type, int32_t, uint16_t)
     FIELDSCRIBE_NAME(fronius_datamanager_model_type_name, int32_t)
     FIELDSCRIBE_NAMED("confirm", FRONIUS_DATAMANAGER_MODEL_TYPE_CONFIRM)
     FIELDSCRIBE_NAMED("integer_and_scale_factor", FRONIUS_DATAMANAGER_MODEL_TYPE_INTEGER_AND_SCALE_FACTOR)
     FIELDSCRIBE_NAMED("floating_point", FRONIUS_DATAMANAGER_MODEL_TYPE_FLOATING_POINT)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(fronius_datamanager_model_type_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(fronius_datamanager_model_type_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE(fronius_datamanager_model_type_frame, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(fronius_datamanager_model_type_frame, u16)
     FIELDSCRIBE_CALLS(fronius_datamanager, model_type, int32_t, uint16_t, PLAIN)
 }
 
 static void point_storage_restrictions_view_mode(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_STORAGE_RESTRICTIONS_VIEW_MODE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(FRONIUS_DATAMANAGER_STORAGE_RESTRICTIONS_VIEW_MODE)
-        FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_STORAGE_RESTRICTIONS_VIEW_MODE)
-        FIELDSCRIBE_CODE("F_Storage_Restrictions_View_Mode") FIELDSCRIBE_REFERENCE("register", 217))
-    FIELDSCRIBE_CHECK(fronius_datamanager_storage_restrictions_view_mode_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(fronius_datamanager_storage_restrictions_view_mode_encode, int32_t, uint16_t,
-        FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(fronius_datamanager_storage_restrictions_view_mode_decode, int32_t, uint16_t,
-        FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_STORAGE_RESTRICTIONS_VIEW_MODE, "holding", 1U,
+        "F_Storage_Restrictions_View_Mode", FIELDSCRIBE_RAWS(FRONIUS_DATAMANAGER_STORAGE_RESTRICTIONS_VIEW_MODE)
+        FIELDSCRIBE_REFERENCE("register", 217))
+    FIELDSCRIBE_PLAIN(fronius_datamanager_storage_restrictions_view_mode, int32_t, uint16_t)
     FIELDSCRIBE_NAME(fronius_datamanager_storage_restrictions_view_mode_name, int32_t)
     FIELDSCRIBE_NAMED("global", FRONIUS_DATAMANAGER_STORAGE_RESTRICTIONS_VIEW_MODE_GLOBAL)
     FIELDSCRIBE_NAMED("local", FRONIUS_DATAMANAGER_STORAGE_RESTRICTIONS_VIEW_MODE_LOCAL)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(fronius_datamanager_storage_restrictions_view_mode_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(fronius_datamanager_storage_restrictions_view_mode_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE(fronius_datamanager_storage_restrictions_view_mode_frame, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(fronius_datamanager_storage_restrictions_view_mode_frame, u16)
     FIELDSCRIBE_CALLS(fronius_datamanager, storage_restrictions_view_mode, int32_t, uint16_t, PLAIN)
 }
 
 static void point_site_power(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_SITE_POWER, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_SITE_POWER) FIELDSCRIBE_ONLY_READ(0, 4294967295)
-        FIELDSCRIBE_CODE("F_Site_Power") FIELDSCRIBE_REFERENCE("register", 500))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_SITE_POWER, "holding", FRONIUS_DATAMANAGER_SITE_POWER_WORDS, "F_Site_Power",
+        FIELDSCRIBE_ONLY_READ(0, 4294967295) FIELDSCRIBE_REFERENCE("register", 500))
     FIELDSCRIBE_DECODE_COUNT(fronius_datamanager_site_power_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_site_power, uint32_t, 2U)
-    FIELDSCRIBE_LIES(fronius_datamanager_site_power_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(fronius_datamanager_site_power_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(fronius_datamanager_site_power_frame)
+    FIELDSCRIBE_READ(fronius_datamanager_site_power_frame, u32)
     FIELDSCRIBE_CALL_READ(fronius_datamanager, site_power, int64_t, uint32_t, PLAIN)
 }
 
 static void point_site_energy_of_day(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_SITE_ENERGY_OF_DAY, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_SITE_ENERGY_OF_DAY) FIELDSCRIBE_ONLY_READ(0,
-        UINT64_C(18446744073709551615)) FIELDSCRIBE_CODE("F_Site_Energy_Day") FIELDSCRIBE_REFERENCE("register", 502))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_SITE_ENERGY_OF_DAY, "holding", FRONIUS_DATAMANAGER_SITE_ENERGY_OF_DAY_WORDS,
+        "F_Site_Energy_Day", FIELDSCRIBE_ONLY_READ(0, UINT64_C(18446744073709551615)) FIELDSCRIBE_REFERENCE("register",
+        502))
     FIELDSCRIBE_DECODE_COUNT(fronius_datamanager_site_energy_of_day_decode, uint64_t, uint64_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_site_energy_of_day, uint64_t, 4U)
-    FIELDSCRIBE_LIES(fronius_datamanager_site_energy_of_day_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(fronius_datamanager_site_energy_of_day_frame, u64, uint64_t)
+    FIELDSCRIBE_LIES_ALONE(fronius_datamanager_site_energy_of_day_frame)
+    FIELDSCRIBE_READ(fronius_datamanager_site_energy_of_day_frame, u64)
     FIELDSCRIBE_CALL_READ(fronius_datamanager, site_energy_of_day, uint64_t, uint64_t, PLAIN)
 }
 
 static void point_site_energy_of_year(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_SITE_ENERGY_OF_YEAR, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_SITE_ENERGY_OF_YEAR) FIELDSCRIBE_ONLY_READ(0,
-        UINT64_C(18446744073709551615)) FIELDSCRIBE_CODE("F_Site_Energy_Year") FIELDSCRIBE_REFERENCE("register", 506))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_SITE_ENERGY_OF_YEAR, "holding",
+        FRONIUS_DATAMANAGER_SITE_ENERGY_OF_YEAR_WORDS, "F_Site_Energy_Year", FIELDSCRIBE_ONLY_READ(0,
+        UINT64_C(18446744073709551615)) FIELDSCRIBE_REFERENCE("register", 506))
     FIELDSCRIBE_DECODE_COUNT(fronius_datamanager_site_energy_of_year_decode, uint64_t, uint64_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_site_energy_of_year, uint64_t, 4U)
-    FIELDSCRIBE_LIES(fronius_datamanager_site_energy_of_year_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(fronius_datamanager_site_energy_of_year_frame, u64, uint64_t)
+    FIELDSCRIBE_LIES_ALONE(fronius_datamanager_site_energy_of_year_frame)
+    FIELDSCRIBE_READ(fronius_datamanager_site_energy_of_year_frame, u64)
     FIELDSCRIBE_CALL_READ(fronius_datamanager, site_energy_of_year, uint64_t, uint64_t, PLAIN)
 }
 
 static void point_site_energy_total(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_SITE_ENERGY_TOTAL, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(FRONIUS_DATAMANAGER_SITE_ENERGY_TOTAL) FIELDSCRIBE_ONLY_READ(0,
-        UINT64_C(18446744073709551615)) FIELDSCRIBE_CODE("F_Site_Energy_Total") FIELDSCRIBE_REFERENCE("register", 510))
+    FIELDSCRIBE_ADDRESS(FRONIUS_DATAMANAGER_SITE_ENERGY_TOTAL, "holding", FRONIUS_DATAMANAGER_SITE_ENERGY_TOTAL_WORDS,
+        "F_Site_Energy_Total", FIELDSCRIBE_ONLY_READ(0, UINT64_C(18446744073709551615))
+        FIELDSCRIBE_REFERENCE("register", 510))
     FIELDSCRIBE_DECODE_COUNT(fronius_datamanager_site_energy_total_decode, uint64_t, uint64_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(fronius_datamanager_site_energy_total, uint64_t, 4U)
-    FIELDSCRIBE_LIES(fronius_datamanager_site_energy_total_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(fronius_datamanager_site_energy_total_frame, u64, uint64_t)
+    FIELDSCRIBE_LIES_ALONE(fronius_datamanager_site_energy_total_frame)
+    FIELDSCRIBE_READ(fronius_datamanager_site_energy_total_frame, u64)
     FIELDSCRIBE_CALL_READ(fronius_datamanager, site_energy_total, uint64_t, uint64_t, PLAIN)
 }
 

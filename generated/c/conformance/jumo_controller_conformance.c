@@ -11,481 +11,330 @@
 
 static void point_program_status(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_PROGRAM_STATUS, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(JUMO_CONTROLLER_PROGRAM_STATUS) FIELDSCRIBE_ONLY_READ(0, 65535))
+    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_PROGRAM_STATUS, "holding", 1U, NULL, FIELDSCRIBE_ONLY_READ(0, 65535))
     FIELDSCRIBE_DECODE_COUNT(jumo_controller_program_status_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(jumo_controller_program_status_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(jumo_controller_program_status_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(jumo_controller_program_status_frame)
+    FIELDSCRIBE_READ(jumo_controller_program_status_frame, u16)
     FIELDSCRIBE_CALL_READ(jumo_controller, program_status, int32_t, uint16_t, PLAIN)
-    FIELDSCRIBE_TRUTH("program_hold", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_PROGRAM_STATUS_PROGRAM_HOLD_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_PROGRAM_STATUS_PROGRAM_HOLD_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("basic_position", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_PROGRAM_STATUS_BASIC_POSITION_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_PROGRAM_STATUS_BASIC_POSITION_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("automatic_mode", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_PROGRAM_STATUS_AUTOMATIC_MODE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_PROGRAM_STATUS_AUTOMATIC_MODE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("program_end_signal", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_PROGRAM_STATUS_PROGRAM_END_SIGNAL_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_PROGRAM_STATUS_PROGRAM_END_SIGNAL_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("tolerance_band_signal", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_PROGRAM_STATUS_TOLERANCE_BAND_SIGNAL_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_PROGRAM_STATUS_TOLERANCE_BAND_SIGNAL_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("program_hold", uint16_t, JUMO_CONTROLLER_PROGRAM_STATUS_PROGRAM_HOLD_MASK, 0U)
+    FIELDSCRIBE_TRUTH("basic_position", uint16_t, JUMO_CONTROLLER_PROGRAM_STATUS_BASIC_POSITION_MASK, 0U)
+    FIELDSCRIBE_TRUTH("automatic_mode", uint16_t, JUMO_CONTROLLER_PROGRAM_STATUS_AUTOMATIC_MODE_MASK, 0U)
+    FIELDSCRIBE_TRUTH("program_end_signal", uint16_t, JUMO_CONTROLLER_PROGRAM_STATUS_PROGRAM_END_SIGNAL_MASK, 0U)
+    FIELDSCRIBE_TRUTH("tolerance_band_signal", uint16_t, JUMO_CONTROLLER_PROGRAM_STATUS_TOLERANCE_BAND_SIGNAL_MASK, 0U)
 }
 
 static void point_controller_status(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_CONTROLLER_STATUS, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(JUMO_CONTROLLER_CONTROLLER_STATUS) FIELDSCRIBE_ONLY_READ(0, 65535))
+    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_CONTROLLER_STATUS, "holding", 1U, NULL, FIELDSCRIBE_ONLY_READ(0, 65535))
     FIELDSCRIBE_DECODE_COUNT(jumo_controller_controller_status_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(jumo_controller_controller_status_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(jumo_controller_controller_status_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(jumo_controller_controller_status_frame)
+    FIELDSCRIBE_READ(jumo_controller_controller_status_frame, u16)
     FIELDSCRIBE_CALL_READ(jumo_controller, controller_status, int32_t, uint16_t, PLAIN)
 }
 
 static void point_binary_outputs(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_BINARY_OUTPUTS, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(JUMO_CONTROLLER_BINARY_OUTPUTS) FIELDSCRIBE_ONLY_READ(0, 65535))
+    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_BINARY_OUTPUTS, "holding", 1U, NULL, FIELDSCRIBE_ONLY_READ(0, 65535))
     FIELDSCRIBE_DECODE_COUNT(jumo_controller_binary_outputs_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(jumo_controller_binary_outputs_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(jumo_controller_binary_outputs_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(jumo_controller_binary_outputs_frame)
+    FIELDSCRIBE_READ(jumo_controller_binary_outputs_frame, u16)
     FIELDSCRIBE_CALL_READ(jumo_controller, binary_outputs, int32_t, uint16_t, PLAIN)
-    FIELDSCRIBE_TRUTH("binary_output_1", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_1_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_1_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("binary_output_2", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_2_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_2_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("binary_output_3", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_3_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_3_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("binary_output_4", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_4_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_4_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("binary_output_5", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_5_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_5_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("binary_output_6", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_6_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_6_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("binary_output_7", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_7_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_7_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("binary_output_8", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_8_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_8_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("binary_output_9", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_9_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_9_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("binary_output_10", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_10_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_10_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("binary_output_1", uint16_t, JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_1_MASK, 0U)
+    FIELDSCRIBE_TRUTH("binary_output_2", uint16_t, JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_2_MASK, 0U)
+    FIELDSCRIBE_TRUTH("binary_output_3", uint16_t, JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_3_MASK, 0U)
+    FIELDSCRIBE_TRUTH("binary_output_4", uint16_t, JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_4_MASK, 0U)
+    FIELDSCRIBE_TRUTH("binary_output_5", uint16_t, JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_5_MASK, 0U)
+    FIELDSCRIBE_TRUTH("binary_output_6", uint16_t, JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_6_MASK, 0U)
+    FIELDSCRIBE_TRUTH("binary_output_7", uint16_t, JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_7_MASK, 0U)
+    FIELDSCRIBE_TRUTH("binary_output_8", uint16_t, JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_8_MASK, 0U)
+    FIELDSCRIBE_TRUTH("binary_output_9", uint16_t, JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_9_MASK, 0U)
+    FIELDSCRIBE_TRUTH("binary_output_10", uint16_t, JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_10_MASK, 0U)
 }
 
 static void point_binary_inputs(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_BINARY_INPUTS, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(JUMO_CONTROLLER_BINARY_INPUTS) FIELDSCRIBE_ONLY_READ(0, 65535))
+    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_BINARY_INPUTS, "holding", 1U, NULL, FIELDSCRIBE_ONLY_READ(0, 65535))
     FIELDSCRIBE_DECODE_COUNT(jumo_controller_binary_inputs_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(jumo_controller_binary_inputs_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(jumo_controller_binary_inputs_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(jumo_controller_binary_inputs_frame)
+    FIELDSCRIBE_READ(jumo_controller_binary_inputs_frame, u16)
     FIELDSCRIBE_CALL_READ(jumo_controller, binary_inputs, int32_t, uint16_t, PLAIN)
-    FIELDSCRIBE_TRUTH("binary_input_1", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_1_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_1_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("binary_input_2", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_2_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_2_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("binary_input_3", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_3_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_3_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("binary_input_4", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_4_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_4_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("binary_input_6", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_6_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_6_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("binary_input_5", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_5_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_5_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("binary_input_8", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_8_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_8_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("binary_input_7", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_7_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_7_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("binary_input_1", uint16_t, JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_1_MASK, 0U)
+    FIELDSCRIBE_TRUTH("binary_input_2", uint16_t, JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_2_MASK, 0U)
+    FIELDSCRIBE_TRUTH("binary_input_3", uint16_t, JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_3_MASK, 0U)
+    FIELDSCRIBE_TRUTH("binary_input_4", uint16_t, JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_4_MASK, 0U)
+    FIELDSCRIBE_TRUTH("binary_input_6", uint16_t, JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_6_MASK, 0U)
+    FIELDSCRIBE_TRUTH("binary_input_5", uint16_t, JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_5_MASK, 0U)
+    FIELDSCRIBE_TRUTH("binary_input_8", uint16_t, JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_8_MASK, 0U)
+    FIELDSCRIBE_TRUTH("binary_input_7", uint16_t, JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_7_MASK, 0U)
 }
 
 static void point_control_contacts(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_CONTROL_CONTACTS, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(JUMO_CONTROLLER_CONTROL_CONTACTS) FIELDSCRIBE_ONLY_READ(0, 65535))
+    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_CONTROL_CONTACTS, "holding", 1U, NULL, FIELDSCRIBE_ONLY_READ(0, 65535))
     FIELDSCRIBE_DECODE_COUNT(jumo_controller_control_contacts_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(jumo_controller_control_contacts_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(jumo_controller_control_contacts_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(jumo_controller_control_contacts_frame)
+    FIELDSCRIBE_READ(jumo_controller_control_contacts_frame, u16)
     FIELDSCRIBE_CALL_READ(jumo_controller, control_contacts, int32_t, uint16_t, PLAIN)
-    FIELDSCRIBE_TRUTH("control_contact_1", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_CONTROL_CONTACTS_CONTROL_CONTACT_1_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_CONTROL_CONTACTS_CONTROL_CONTACT_1_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("control_contact_2", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_CONTROL_CONTACTS_CONTROL_CONTACT_2_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_CONTROL_CONTACTS_CONTROL_CONTACT_2_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("control_contact_3", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_CONTROL_CONTACTS_CONTROL_CONTACT_3_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_CONTROL_CONTACTS_CONTROL_CONTACT_3_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("control_contact_4", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_CONTROL_CONTACTS_CONTROL_CONTACT_4_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_CONTROL_CONTACTS_CONTROL_CONTACT_4_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("control_contact_1", uint16_t, JUMO_CONTROLLER_CONTROL_CONTACTS_CONTROL_CONTACT_1_MASK, 0U)
+    FIELDSCRIBE_TRUTH("control_contact_2", uint16_t, JUMO_CONTROLLER_CONTROL_CONTACTS_CONTROL_CONTACT_2_MASK, 0U)
+    FIELDSCRIBE_TRUTH("control_contact_3", uint16_t, JUMO_CONTROLLER_CONTROL_CONTACTS_CONTROL_CONTACT_3_MASK, 0U)
+    FIELDSCRIBE_TRUTH("control_contact_4", uint16_t, JUMO_CONTROLLER_CONTROL_CONTACTS_CONTROL_CONTACT_4_MASK, 0U)
 }
 
 static void point_binary_signals(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_BINARY_SIGNALS, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(JUMO_CONTROLLER_BINARY_SIGNALS) FIELDSCRIBE_ONLY_READ(0, 65535))
+    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_BINARY_SIGNALS, "holding", 1U, NULL, FIELDSCRIBE_ONLY_READ(0, 65535))
     FIELDSCRIBE_DECODE_COUNT(jumo_controller_binary_signals_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(jumo_controller_binary_signals_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(jumo_controller_binary_signals_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(jumo_controller_binary_signals_frame)
+    FIELDSCRIBE_READ(jumo_controller_binary_signals_frame, u16)
     FIELDSCRIBE_CALL_READ(jumo_controller, binary_signals, int32_t, uint16_t, PLAIN)
-    FIELDSCRIBE_TRUTH("control_contact_1", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_SIGNALS_CONTROL_CONTACT_1_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_SIGNALS_CONTROL_CONTACT_1_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("control_contact_2", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_SIGNALS_CONTROL_CONTACT_2_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_SIGNALS_CONTROL_CONTACT_2_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("control_contact_3", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_SIGNALS_CONTROL_CONTACT_3_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_SIGNALS_CONTROL_CONTACT_3_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("control_contact_4", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_SIGNALS_CONTROL_CONTACT_4_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_SIGNALS_CONTROL_CONTACT_4_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("timer_1", (((uint16_t)fieldscribe_bits(v, "raw")) & JUMO_CONTROLLER_BINARY_SIGNALS_TIMER_1_MASK)
-        != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) & JUMO_CONTROLLER_BINARY_SIGNALS_TIMER_1_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("timer_2", (((uint16_t)fieldscribe_bits(v, "raw")) & JUMO_CONTROLLER_BINARY_SIGNALS_TIMER_2_MASK)
-        != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) & JUMO_CONTROLLER_BINARY_SIGNALS_TIMER_2_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("control_contact_1", uint16_t, JUMO_CONTROLLER_BINARY_SIGNALS_CONTROL_CONTACT_1_MASK, 0U)
+    FIELDSCRIBE_TRUTH("control_contact_2", uint16_t, JUMO_CONTROLLER_BINARY_SIGNALS_CONTROL_CONTACT_2_MASK, 0U)
+    FIELDSCRIBE_TRUTH("control_contact_3", uint16_t, JUMO_CONTROLLER_BINARY_SIGNALS_CONTROL_CONTACT_3_MASK, 0U)
+    FIELDSCRIBE_TRUTH("control_contact_4", uint16_t, JUMO_CONTROLLER_BINARY_SIGNALS_CONTROL_CONTACT_4_MASK, 0U)
+    FIELDSCRIBE_TRUTH("timer_1", uint16_t, JUMO_CONTROLLER_BINARY_SIGNALS_TIMER_1_MASK, 0U)
+    FIELDSCRIBE_TRUTH("timer_2", uint16_t, JUMO_CONTROLLER_BINARY_SIGNALS_TIMER_2_MASK, 0U)
 }
 
 static void point_binary_output_control(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL) FIELDSCRIBE_RAWS(JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL))
-    FIELDSCRIBE_CHECK(jumo_controller_binary_output_control_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(jumo_controller_binary_output_control_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(jumo_controller_binary_output_control_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL, "holding", 1U, NULL,
+        FIELDSCRIBE_RAWS(JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL))
+    FIELDSCRIBE_PLAIN(jumo_controller_binary_output_control, int32_t, uint16_t)
     FIELDSCRIBE_FIXED(JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL)
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(jumo_controller_binary_output_control_frame, false, 0x8000U, 0x8000U)
-    FIELDSCRIBE_READ(jumo_controller_binary_output_control_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE(jumo_controller_binary_output_control_frame, u16, uint16_t)
+    FIELDSCRIBE_READ(jumo_controller_binary_output_control_frame, u16)
+    FIELDSCRIBE_WRITE(jumo_controller_binary_output_control_frame, u16)
     FIELDSCRIBE_CALLS(jumo_controller, binary_output_control, int32_t, uint16_t, PLAIN)
-    FIELDSCRIBE_TRUTH("output_1", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_1_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_1_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("output_2", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_2_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_2_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("output_3", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_3_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_3_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("output_4", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_4_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_4_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("output_5", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_5_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_5_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("output_6", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_6_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_6_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("output_7", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_7_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_7_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("output_8", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_8_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_8_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("output_9", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_9_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_9_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("output_10", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_10_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_10_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("output_1", uint16_t, JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_1_MASK, 0U)
+    FIELDSCRIBE_TRUTH("output_2", uint16_t, JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_2_MASK, 0U)
+    FIELDSCRIBE_TRUTH("output_3", uint16_t, JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_3_MASK, 0U)
+    FIELDSCRIBE_TRUTH("output_4", uint16_t, JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_4_MASK, 0U)
+    FIELDSCRIBE_TRUTH("output_5", uint16_t, JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_5_MASK, 0U)
+    FIELDSCRIBE_TRUTH("output_6", uint16_t, JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_6_MASK, 0U)
+    FIELDSCRIBE_TRUTH("output_7", uint16_t, JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_7_MASK, 0U)
+    FIELDSCRIBE_TRUTH("output_8", uint16_t, JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_8_MASK, 0U)
+    FIELDSCRIBE_TRUTH("output_9", uint16_t, JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_9_MASK, 0U)
+    FIELDSCRIBE_TRUTH("output_10", uint16_t, JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_10_MASK, 0U)
 }
 
 static void point_program_run_time(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_PROGRAM_RUN_TIME, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(JUMO_CONTROLLER_PROGRAM_RUN_TIME) FIELDSCRIBE_ONLY_READ(0, 4294967295))
+    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_PROGRAM_RUN_TIME, "holding", JUMO_CONTROLLER_PROGRAM_RUN_TIME_WORDS, NULL,
+        FIELDSCRIBE_ONLY_READ(0, 4294967295))
     FIELDSCRIBE_DECODE_COUNT(jumo_controller_program_run_time_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(jumo_controller_program_run_time, uint32_t, 2U)
-    FIELDSCRIBE_LIES(jumo_controller_program_run_time_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(jumo_controller_program_run_time_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(jumo_controller_program_run_time_frame)
+    FIELDSCRIBE_READ(jumo_controller_program_run_time_frame, u32)
     FIELDSCRIBE_CALL_READ(jumo_controller, program_run_time, int64_t, uint32_t, PLAIN)
 }
 
 static void point_program_remaining_time(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_PROGRAM_REMAINING_TIME, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(JUMO_CONTROLLER_PROGRAM_REMAINING_TIME) FIELDSCRIBE_ONLY_READ(0, 4294967295))
+    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_PROGRAM_REMAINING_TIME, "holding", JUMO_CONTROLLER_PROGRAM_REMAINING_TIME_WORDS,
+        NULL, FIELDSCRIBE_ONLY_READ(0, 4294967295))
     FIELDSCRIBE_DECODE_COUNT(jumo_controller_program_remaining_time_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(jumo_controller_program_remaining_time, uint32_t, 2U)
-    FIELDSCRIBE_LIES(jumo_controller_program_remaining_time_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(jumo_controller_program_remaining_time_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(jumo_controller_program_remaining_time_frame)
+    FIELDSCRIBE_READ(jumo_controller_program_remaining_time_frame, u32)
     FIELDSCRIBE_CALL_READ(jumo_controller, program_remaining_time, int64_t, uint32_t, PLAIN)
 }
 
 static void point_section_run_time(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_SECTION_RUN_TIME, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(JUMO_CONTROLLER_SECTION_RUN_TIME) FIELDSCRIBE_ONLY_READ(0, 4294967295))
+    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_SECTION_RUN_TIME, "holding", JUMO_CONTROLLER_SECTION_RUN_TIME_WORDS, NULL,
+        FIELDSCRIBE_ONLY_READ(0, 4294967295))
     FIELDSCRIBE_DECODE_COUNT(jumo_controller_section_run_time_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(jumo_controller_section_run_time, uint32_t, 2U)
-    FIELDSCRIBE_LIES(jumo_controller_section_run_time_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(jumo_controller_section_run_time_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(jumo_controller_section_run_time_frame)
+    FIELDSCRIBE_READ(jumo_controller_section_run_time_frame, u32)
     FIELDSCRIBE_CALL_READ(jumo_controller, section_run_time, int64_t, uint32_t, PLAIN)
 }
 
 static void point_section_remaining_time(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_SECTION_REMAINING_TIME, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(JUMO_CONTROLLER_SECTION_REMAINING_TIME) FIELDSCRIBE_ONLY_READ(0, 4294967295))
+    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_SECTION_REMAINING_TIME, "holding", JUMO_CONTROLLER_SECTION_REMAINING_TIME_WORDS,
+        NULL, FIELDSCRIBE_ONLY_READ(0, 4294967295))
     FIELDSCRIBE_DECODE_COUNT(jumo_controller_section_remaining_time_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(jumo_controller_section_remaining_time, uint32_t, 2U)
-    FIELDSCRIBE_LIES(jumo_controller_section_remaining_time_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(jumo_controller_section_remaining_time_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(jumo_controller_section_remaining_time_frame)
+    FIELDSCRIBE_READ(jumo_controller_section_remaining_time_frame, u32)
     FIELDSCRIBE_CALL_READ(jumo_controller, section_remaining_time, int64_t, uint32_t, PLAIN)
 }
 
 static void point_timer_1_run_time(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_TIMER_1_RUN_TIME, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(JUMO_CONTROLLER_TIMER_1_RUN_TIME) FIELDSCRIBE_ONLY_READ(0, 4294967295))
+    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_TIMER_1_RUN_TIME, "holding", JUMO_CONTROLLER_TIMER_1_RUN_TIME_WORDS, NULL,
+        FIELDSCRIBE_ONLY_READ(0, 4294967295))
     FIELDSCRIBE_DECODE_COUNT(jumo_controller_timer_1_run_time_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(jumo_controller_timer_1_run_time, uint32_t, 2U)
-    FIELDSCRIBE_LIES(jumo_controller_timer_1_run_time_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(jumo_controller_timer_1_run_time_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(jumo_controller_timer_1_run_time_frame)
+    FIELDSCRIBE_READ(jumo_controller_timer_1_run_time_frame, u32)
     FIELDSCRIBE_CALL_READ(jumo_controller, timer_1_run_time, int64_t, uint32_t, PLAIN)
 }
 
 static void point_timer_2_run_time(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_TIMER_2_RUN_TIME, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(JUMO_CONTROLLER_TIMER_2_RUN_TIME) FIELDSCRIBE_ONLY_READ(0, 4294967295))
+    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_TIMER_2_RUN_TIME, "holding", JUMO_CONTROLLER_TIMER_2_RUN_TIME_WORDS, NULL,
+        FIELDSCRIBE_ONLY_READ(0, 4294967295))
     FIELDSCRIBE_DECODE_COUNT(jumo_controller_timer_2_run_time_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(jumo_controller_timer_2_run_time, uint32_t, 2U)
-    FIELDSCRIBE_LIES(jumo_controller_timer_2_run_time_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(jumo_controller_timer_2_run_time_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(jumo_controller_timer_2_run_time_frame)
+    FIELDSCRIBE_READ(jumo_controller_timer_2_run_time_frame, u32)
     FIELDSCRIBE_CALL_READ(jumo_controller, timer_2_run_time, int64_t, uint32_t, PLAIN)
 }
 
 static void point_timer_3_run_time(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_TIMER_3_RUN_TIME, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(JUMO_CONTROLLER_TIMER_3_RUN_TIME) FIELDSCRIBE_ONLY_READ(0, 4294967295))
+    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_TIMER_3_RUN_TIME, "holding", JUMO_CONTROLLER_TIMER_3_RUN_TIME_WORDS, NULL,
+        FIELDSCRIBE_ONLY_READ(0, 4294967295))
     FIELDSCRIBE_DECODE_COUNT(jumo_controller_timer_3_run_time_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(jumo_controller_timer_3_run_time, uint32_t, 2U)
-    FIELDSCRIBE_LIES(jumo_controller_timer_3_run_time_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(jumo_controller_timer_3_run_time_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(jumo_controller_timer_3_run_time_frame)
+    FIELDSCRIBE_READ(jumo_controller_timer_3_run_time_frame, u32)
     FIELDSCRIBE_CALL_READ(jumo_controller, timer_3_run_time, int64_t, uint32_t, PLAIN)
 }
 
 static void point_timer_4_run_time(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_TIMER_4_RUN_TIME, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(JUMO_CONTROLLER_TIMER_4_RUN_TIME) FIELDSCRIBE_ONLY_READ(0, 4294967295))
+    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_TIMER_4_RUN_TIME, "holding", JUMO_CONTROLLER_TIMER_4_RUN_TIME_WORDS, NULL,
+        FIELDSCRIBE_ONLY_READ(0, 4294967295))
     FIELDSCRIBE_DECODE_COUNT(jumo_controller_timer_4_run_time_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(jumo_controller_timer_4_run_time, uint32_t, 2U)
-    FIELDSCRIBE_LIES(jumo_controller_timer_4_run_time_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(jumo_controller_timer_4_run_time_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(jumo_controller_timer_4_run_time_frame)
+    FIELDSCRIBE_READ(jumo_controller_timer_4_run_time_frame, u32)
     FIELDSCRIBE_CALL_READ(jumo_controller, timer_4_run_time, int64_t, uint32_t, PLAIN)
 }
 
 static void point_setpoint_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_SETPOINT_1, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(JUMO_CONTROLLER_SETPOINT_1))
+    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_SETPOINT_1, "holding", JUMO_CONTROLLER_SETPOINT_1_WORDS, NULL, )
     FIELDSCRIBE_CHECK(jumo_controller_setpoint_1_check, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_F32_ENCODE_COUNT(jumo_controller_setpoint_1_encode_count)
-    FIELDSCRIBE_F32_DECODE_COUNT(jumo_controller_setpoint_1_decode_count)
     FIELDSCRIBE_ENCODE(jumo_controller_setpoint_1_encode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_F32_DECODE_COUNT(jumo_controller_setpoint_1_decode_count)
     FIELDSCRIBE_DECODE(jumo_controller_setpoint_1_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(jumo_controller_setpoint_1, uint32_t, 2U)
-    FIELDSCRIBE_LIES(jumo_controller_setpoint_1_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(jumo_controller_setpoint_1_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE(jumo_controller_setpoint_1_frame, u32, uint32_t)
+    FIELDSCRIBE_READ_WRITE(jumo_controller_setpoint_1_frame, u32)
     FIELDSCRIBE_CALL_READ(jumo_controller, setpoint_1, int64_t, uint32_t, TRY_COUNT_OF)
 }
 
 static void point_setpoint_2(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_SETPOINT_2, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(JUMO_CONTROLLER_SETPOINT_2))
+    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_SETPOINT_2, "holding", JUMO_CONTROLLER_SETPOINT_2_WORDS, NULL, )
     FIELDSCRIBE_CHECK(jumo_controller_setpoint_2_check, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_F32_ENCODE_COUNT(jumo_controller_setpoint_2_encode_count)
-    FIELDSCRIBE_F32_DECODE_COUNT(jumo_controller_setpoint_2_decode_count)
     FIELDSCRIBE_ENCODE(jumo_controller_setpoint_2_encode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_F32_DECODE_COUNT(jumo_controller_setpoint_2_decode_count)
     FIELDSCRIBE_DECODE(jumo_controller_setpoint_2_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(jumo_controller_setpoint_2, uint32_t, 2U)
-    FIELDSCRIBE_LIES(jumo_controller_setpoint_2_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(jumo_controller_setpoint_2_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE(jumo_controller_setpoint_2_frame, u32, uint32_t)
+    FIELDSCRIBE_READ_WRITE(jumo_controller_setpoint_2_frame, u32)
     FIELDSCRIBE_CALL_READ(jumo_controller, setpoint_2, int64_t, uint32_t, TRY_COUNT_OF)
 }
 
 static void point_proportional_band_1_set_2(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_PROPORTIONAL_BAND_1_SET_2, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(JUMO_CONTROLLER_PROPORTIONAL_BAND_1_SET_2) FIELDSCRIBE_CODE("Pb1"))
+    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_PROPORTIONAL_BAND_1_SET_2, "holding",
+        JUMO_CONTROLLER_PROPORTIONAL_BAND_1_SET_2_WORDS, "Pb1", )
     FIELDSCRIBE_CHECK(jumo_controller_proportional_band_1_set_2_check, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_F32_ENCODE_COUNT(jumo_controller_proportional_band_1_set_2_encode_count)
-    FIELDSCRIBE_F32_DECODE_COUNT(jumo_controller_proportional_band_1_set_2_decode_count)
     FIELDSCRIBE_ENCODE(jumo_controller_proportional_band_1_set_2_encode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_F32_DECODE_COUNT(jumo_controller_proportional_band_1_set_2_decode_count)
     FIELDSCRIBE_DECODE(jumo_controller_proportional_band_1_set_2_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(jumo_controller_proportional_band_1_set_2, uint32_t, 2U)
-    FIELDSCRIBE_LIES(jumo_controller_proportional_band_1_set_2_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(jumo_controller_proportional_band_1_set_2_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE(jumo_controller_proportional_band_1_set_2_frame, u32, uint32_t)
+    FIELDSCRIBE_READ_WRITE(jumo_controller_proportional_band_1_set_2_frame, u32)
     FIELDSCRIBE_CALL_READ(jumo_controller, proportional_band_1_set_2, int64_t, uint32_t, TRY_COUNT_OF)
 }
 
 static void point_value_0077(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_VALUE_0077, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(JUMO_CONTROLLER_VALUE_0077))
+    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_VALUE_0077, "holding", JUMO_CONTROLLER_VALUE_0077_WORDS, NULL, )
     FIELDSCRIBE_CHECK(jumo_controller_value_0077_check, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_F32_ENCODE_COUNT(jumo_controller_value_0077_encode_count)
     FIELDSCRIBE_ENCODE(jumo_controller_value_0077_encode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(jumo_controller_value_0077, uint32_t, 2U)
-    FIELDSCRIBE_LIES(jumo_controller_value_0077_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_WRITE(jumo_controller_value_0077_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(jumo_controller_value_0077_frame)
+    FIELDSCRIBE_WRITE(jumo_controller_value_0077_frame, u32)
 }
 
 static void point_value_00ce(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_VALUE_00CE, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_SEVERAL(JUMO_CONTROLLER_VALUE_00CE))
+    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_VALUE_00CE, "holding", JUMO_CONTROLLER_VALUE_00CE_WORDS, NULL, )
     FIELDSCRIBE_F32_DECODE_COUNT(jumo_controller_value_00ce_decode_count)
     FIELDSCRIBE_DECODE(jumo_controller_value_00ce_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(jumo_controller_value_00ce, uint32_t, 2U)
-    FIELDSCRIBE_LIES(jumo_controller_value_00ce_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(jumo_controller_value_00ce_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(jumo_controller_value_00ce_frame)
+    FIELDSCRIBE_READ(jumo_controller_value_00ce_frame, u32)
     FIELDSCRIBE_CALL_READ(jumo_controller, value_00ce, int64_t, uint32_t, TRY_COUNT_OF)
 }
 
 static void point_program_controller_commands(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS)
+    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS, "holding", 1U, NULL,
         FIELDSCRIBE_RAWS(JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS))
-    FIELDSCRIBE_CHECK(jumo_controller_program_controller_commands_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(jumo_controller_program_controller_commands_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(jumo_controller_program_controller_commands_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_PLAIN(jumo_controller_program_controller_commands, int32_t, uint16_t)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(jumo_controller_program_controller_commands_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(jumo_controller_program_controller_commands_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE(jumo_controller_program_controller_commands_frame, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(jumo_controller_program_controller_commands_frame, u16)
     FIELDSCRIBE_CALLS(jumo_controller, program_controller_commands, int32_t, uint16_t, PLAIN)
-    FIELDSCRIBE_TRUTH("hold_program", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_HOLD_PROGRAM_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")))
-        & JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_HOLD_PROGRAM_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("abort_program", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_ABORT_PROGRAM_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")))
-        & JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_ABORT_PROGRAM_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("start_program", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_START_PROGRAM_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")))
-        & JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_START_PROGRAM_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("change_section", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_CHANGE_SECTION_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v,
-        "raw"))) & JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_CHANGE_SECTION_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("hold_program", uint16_t, JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_HOLD_PROGRAM_MASK, 0U)
+    FIELDSCRIBE_TRUTH("abort_program", uint16_t, JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_ABORT_PROGRAM_MASK, 0U)
+    FIELDSCRIBE_TRUTH("start_program", uint16_t, JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_START_PROGRAM_MASK, 0U)
+    FIELDSCRIBE_TRUTH("change_section", uint16_t, JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_CHANGE_SECTION_MASK, 0U)
 }
 
 static void point_controller_commands(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_CONTROLLER_COMMANDS, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(JUMO_CONTROLLER_CONTROLLER_COMMANDS) FIELDSCRIBE_RAWS(JUMO_CONTROLLER_CONTROLLER_COMMANDS))
-    FIELDSCRIBE_CHECK(jumo_controller_controller_commands_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(jumo_controller_controller_commands_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(jumo_controller_controller_commands_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_CONTROLLER_COMMANDS, "holding", 1U, NULL,
+        FIELDSCRIBE_RAWS(JUMO_CONTROLLER_CONTROLLER_COMMANDS))
+    FIELDSCRIBE_PLAIN(jumo_controller_controller_commands, int32_t, uint16_t)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(jumo_controller_controller_commands_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(jumo_controller_controller_commands_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE(jumo_controller_controller_commands_frame, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(jumo_controller_controller_commands_frame, u16)
     FIELDSCRIBE_CALLS(jumo_controller, controller_commands, int32_t, uint16_t, PLAIN)
-    FIELDSCRIBE_TRUTH("hold_ramp", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_CONTROLLER_COMMANDS_HOLD_RAMP_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_CONTROLLER_COMMANDS_HOLD_RAMP_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("abort_ramp", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_CONTROLLER_COMMANDS_ABORT_RAMP_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_CONTROLLER_COMMANDS_ABORT_RAMP_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("activate_manual_mode", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_CONTROLLER_COMMANDS_ACTIVATE_MANUAL_MODE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")))
-        & JUMO_CONTROLLER_CONTROLLER_COMMANDS_ACTIVATE_MANUAL_MODE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("automatic_mode", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_CONTROLLER_COMMANDS_AUTOMATIC_MODE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_CONTROLLER_COMMANDS_AUTOMATIC_MODE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("controller_off", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_CONTROLLER_COMMANDS_CONTROLLER_OFF_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_CONTROLLER_COMMANDS_CONTROLLER_OFF_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("start_self_optimisation", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_CONTROLLER_COMMANDS_START_SELF_OPTIMISATION_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v,
-        "raw"))) & JUMO_CONTROLLER_CONTROLLER_COMMANDS_START_SELF_OPTIMISATION_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("abort_self_optimisation", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_CONTROLLER_COMMANDS_ABORT_SELF_OPTIMISATION_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v,
-        "raw"))) & JUMO_CONTROLLER_CONTROLLER_COMMANDS_ABORT_SELF_OPTIMISATION_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("hold_ramp", uint16_t, JUMO_CONTROLLER_CONTROLLER_COMMANDS_HOLD_RAMP_MASK, 0U)
+    FIELDSCRIBE_TRUTH("abort_ramp", uint16_t, JUMO_CONTROLLER_CONTROLLER_COMMANDS_ABORT_RAMP_MASK, 0U)
+    FIELDSCRIBE_TRUTH("activate_manual_mode", uint16_t, JUMO_CONTROLLER_CONTROLLER_COMMANDS_ACTIVATE_MANUAL_MODE_MASK,
+        0U)
+    FIELDSCRIBE_TRUTH("automatic_mode", uint16_t, JUMO_CONTROLLER_CONTROLLER_COMMANDS_AUTOMATIC_MODE_MASK, 0U)
+    FIELDSCRIBE_TRUTH("controller_off", uint16_t, JUMO_CONTROLLER_CONTROLLER_COMMANDS_CONTROLLER_OFF_MASK, 0U)
+    FIELDSCRIBE_TRUTH("start_self_optimisation", uint16_t,
+        JUMO_CONTROLLER_CONTROLLER_COMMANDS_START_SELF_OPTIMISATION_MASK, 0U)
+    FIELDSCRIBE_TRUTH("abort_self_optimisation", uint16_t,
+        JUMO_CONTROLLER_CONTROLLER_COMMANDS_ABORT_SELF_OPTIMISATION_MASK, 0U)
 }
 
 static void point_operation_commands(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_OPERATION_COMMANDS, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(JUMO_CONTROLLER_OPERATION_COMMANDS) FIELDSCRIBE_RAWS(JUMO_CONTROLLER_OPERATION_COMMANDS))
-    FIELDSCRIBE_CHECK(jumo_controller_operation_commands_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(jumo_controller_operation_commands_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(jumo_controller_operation_commands_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_OPERATION_COMMANDS, "holding", 1U, NULL,
+        FIELDSCRIBE_RAWS(JUMO_CONTROLLER_OPERATION_COMMANDS))
+    FIELDSCRIBE_PLAIN(jumo_controller_operation_commands, int32_t, uint16_t)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(jumo_controller_operation_commands_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(jumo_controller_operation_commands_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE(jumo_controller_operation_commands_frame, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(jumo_controller_operation_commands_frame, u16)
     FIELDSCRIBE_CALLS(jumo_controller, operation_commands, int32_t, uint16_t, PLAIN)
-    FIELDSCRIBE_TRUTH("displays_off", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_OPERATION_COMMANDS_DISPLAYS_OFF_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_OPERATION_COMMANDS_DISPLAYS_OFF_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("acknowledge_limit_comparators", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_OPERATION_COMMANDS_ACKNOWLEDGE_LIMIT_COMPARATORS_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v,
-        "raw"))) & JUMO_CONTROLLER_OPERATION_COMMANDS_ACKNOWLEDGE_LIMIT_COMPARATORS_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("text_display", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_OPERATION_COMMANDS_TEXT_DISPLAY_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_OPERATION_COMMANDS_TEXT_DISPLAY_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("displays_off", uint16_t, JUMO_CONTROLLER_OPERATION_COMMANDS_DISPLAYS_OFF_MASK, 0U)
+    FIELDSCRIBE_TRUTH("acknowledge_limit_comparators", uint16_t,
+        JUMO_CONTROLLER_OPERATION_COMMANDS_ACKNOWLEDGE_LIMIT_COMPARATORS_MASK, 0U)
+    FIELDSCRIBE_TRUTH("text_display", uint16_t, JUMO_CONTROLLER_OPERATION_COMMANDS_TEXT_DISPLAY_MASK, 0U)
 }
 
 static void point_timer_commands(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_TIMER_COMMANDS, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(JUMO_CONTROLLER_TIMER_COMMANDS) FIELDSCRIBE_RAWS(JUMO_CONTROLLER_TIMER_COMMANDS))
-    FIELDSCRIBE_CHECK(jumo_controller_timer_commands_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(jumo_controller_timer_commands_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(jumo_controller_timer_commands_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_TIMER_COMMANDS, "holding", 1U, NULL,
+        FIELDSCRIBE_RAWS(JUMO_CONTROLLER_TIMER_COMMANDS))
+    FIELDSCRIBE_PLAIN(jumo_controller_timer_commands, int32_t, uint16_t)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(jumo_controller_timer_commands_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(jumo_controller_timer_commands_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE(jumo_controller_timer_commands_frame, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(jumo_controller_timer_commands_frame, u16)
     FIELDSCRIBE_CALLS(jumo_controller, timer_commands, int32_t, uint16_t, PLAIN)
-    FIELDSCRIBE_TRUTH("hold_timer_1", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_TIMER_COMMANDS_HOLD_TIMER_1_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_TIMER_COMMANDS_HOLD_TIMER_1_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("abort_timer_1", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_TIMER_COMMANDS_ABORT_TIMER_1_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_TIMER_COMMANDS_ABORT_TIMER_1_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("start_timer_1", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_TIMER_COMMANDS_START_TIMER_1_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_TIMER_COMMANDS_START_TIMER_1_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("hold_timer_2", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        JUMO_CONTROLLER_TIMER_COMMANDS_HOLD_TIMER_2_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        JUMO_CONTROLLER_TIMER_COMMANDS_HOLD_TIMER_2_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("hold_timer_1", uint16_t, JUMO_CONTROLLER_TIMER_COMMANDS_HOLD_TIMER_1_MASK, 0U)
+    FIELDSCRIBE_TRUTH("abort_timer_1", uint16_t, JUMO_CONTROLLER_TIMER_COMMANDS_ABORT_TIMER_1_MASK, 0U)
+    FIELDSCRIBE_TRUTH("start_timer_1", uint16_t, JUMO_CONTROLLER_TIMER_COMMANDS_START_TIMER_1_MASK, 0U)
+    FIELDSCRIBE_TRUTH("hold_timer_2", uint16_t, JUMO_CONTROLLER_TIMER_COMMANDS_HOLD_TIMER_2_MASK, 0U)
 }
 
 static const fieldscribe_status_name statuses[] = {

@@ -11,60 +11,41 @@
 
 static void point_control_word(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(NORD_SK5XXE_CONTROL_WORD, FIELDSCRIBE_SPACE("holding") FIELDSCRIBE_ONE(NORD_SK5XXE_CONTROL_WORD)
-        FIELDSCRIBE_RAWS(NORD_SK5XXE_CONTROL_WORD) FIELDSCRIBE_CODE("P050[1]"))
-    FIELDSCRIBE_CHECK(nord_sk5xxe_control_word_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(nord_sk5xxe_control_word_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(nord_sk5xxe_control_word_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(NORD_SK5XXE_CONTROL_WORD, "holding", 1U, "P050[1]", FIELDSCRIBE_RAWS(NORD_SK5XXE_CONTROL_WORD))
+    FIELDSCRIBE_PLAIN(nord_sk5xxe_control_word, int32_t, uint16_t)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(NORD_SK5XXE_CONTROL_WORD, 0U), FIELDSCRIBE_INDEX(NORD_SK5XXE_CONTROL_WORD))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(nord_sk5xxe_control_word_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(nord_sk5xxe_control_word_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE(nord_sk5xxe_control_word_frame, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(nord_sk5xxe_control_word_frame, u16)
     FIELDSCRIBE_CALLS(nord_sk5xxe, control_word, int32_t, uint16_t, PLAIN)
-    FIELDSCRIBE_TRUTH("ready_to_run", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        NORD_SK5XXE_CONTROL_WORD_READY_TO_RUN_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK) & NORD_SK5XXE_CONTROL_WORD_READY_TO_RUN_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("inhibit_voltage", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        NORD_SK5XXE_CONTROL_WORD_INHIBIT_VOLTAGE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK) & NORD_SK5XXE_CONTROL_WORD_INHIBIT_VOLTAGE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("quick_stop", (((uint16_t)fieldscribe_bits(v, "raw")) & NORD_SK5XXE_CONTROL_WORD_QUICK_STOP_MASK)
-        != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK) &
-        NORD_SK5XXE_CONTROL_WORD_QUICK_STOP_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("enable_operation", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        NORD_SK5XXE_CONTROL_WORD_ENABLE_OPERATION_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK) & NORD_SK5XXE_CONTROL_WORD_ENABLE_OPERATION_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("enable_pulses", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        NORD_SK5XXE_CONTROL_WORD_ENABLE_PULSES_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK) & NORD_SK5XXE_CONTROL_WORD_ENABLE_PULSES_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("enable_ramp", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        NORD_SK5XXE_CONTROL_WORD_ENABLE_RAMP_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK) & NORD_SK5XXE_CONTROL_WORD_ENABLE_RAMP_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("enable_setpoint", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        NORD_SK5XXE_CONTROL_WORD_ENABLE_SETPOINT_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK) & NORD_SK5XXE_CONTROL_WORD_ENABLE_SETPOINT_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("acknowledge_fault", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        NORD_SK5XXE_CONTROL_WORD_ACKNOWLEDGE_FAULT_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK) & NORD_SK5XXE_CONTROL_WORD_ACKNOWLEDGE_FAULT_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("start_function_480_11", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        NORD_SK5XXE_CONTROL_WORD_START_FUNCTION_480_11_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK) & NORD_SK5XXE_CONTROL_WORD_START_FUNCTION_480_11_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("start_function_480_12", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        NORD_SK5XXE_CONTROL_WORD_START_FUNCTION_480_12_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK) & NORD_SK5XXE_CONTROL_WORD_START_FUNCTION_480_12_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("control_data_valid", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        NORD_SK5XXE_CONTROL_WORD_CONTROL_DATA_VALID_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK) & NORD_SK5XXE_CONTROL_WORD_CONTROL_DATA_VALID_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("clockwise", (((uint16_t)fieldscribe_bits(v, "raw")) & NORD_SK5XXE_CONTROL_WORD_CLOCKWISE_MASK) !=
-        0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK) &
-        NORD_SK5XXE_CONTROL_WORD_CLOCKWISE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("counter_clockwise", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        NORD_SK5XXE_CONTROL_WORD_COUNTER_CLOCKWISE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK) & NORD_SK5XXE_CONTROL_WORD_COUNTER_CLOCKWISE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("reserved", (((uint16_t)fieldscribe_bits(v, "raw")) & NORD_SK5XXE_CONTROL_WORD_RESERVED_MASK) !=
-        0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK) &
-        NORD_SK5XXE_CONTROL_WORD_RESERVED_MASK) != 0U)
-    FIELDSCRIBE_WIDE_FLAG("parameter_set", nord_sk5xxe_control_word_parameter_set((uint16_t)fieldscribe_bits(v, "raw")),
+    FIELDSCRIBE_TRUTH("ready_to_run", uint16_t, NORD_SK5XXE_CONTROL_WORD_READY_TO_RUN_MASK,
+        NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("inhibit_voltage", uint16_t, NORD_SK5XXE_CONTROL_WORD_INHIBIT_VOLTAGE_MASK,
+        NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("quick_stop", uint16_t, NORD_SK5XXE_CONTROL_WORD_QUICK_STOP_MASK,
+        NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("enable_operation", uint16_t, NORD_SK5XXE_CONTROL_WORD_ENABLE_OPERATION_MASK,
+        NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("enable_pulses", uint16_t, NORD_SK5XXE_CONTROL_WORD_ENABLE_PULSES_MASK,
+        NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("enable_ramp", uint16_t, NORD_SK5XXE_CONTROL_WORD_ENABLE_RAMP_MASK,
+        NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("enable_setpoint", uint16_t, NORD_SK5XXE_CONTROL_WORD_ENABLE_SETPOINT_MASK,
+        NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("acknowledge_fault", uint16_t, NORD_SK5XXE_CONTROL_WORD_ACKNOWLEDGE_FAULT_MASK,
+        NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("start_function_480_11", uint16_t, NORD_SK5XXE_CONTROL_WORD_START_FUNCTION_480_11_MASK,
+        NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("start_function_480_12", uint16_t, NORD_SK5XXE_CONTROL_WORD_START_FUNCTION_480_12_MASK,
+        NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("control_data_valid", uint16_t, NORD_SK5XXE_CONTROL_WORD_CONTROL_DATA_VALID_MASK,
+        NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("clockwise", uint16_t, NORD_SK5XXE_CONTROL_WORD_CLOCKWISE_MASK,
+        NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("counter_clockwise", uint16_t, NORD_SK5XXE_CONTROL_WORD_COUNTER_CLOCKWISE_MASK,
+        NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("reserved", uint16_t, NORD_SK5XXE_CONTROL_WORD_RESERVED_MASK,
+        NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_WIDE_FLAG("parameter_set", uint16_t, nord_sk5xxe_control_word_parameter_set,
         NORD_SK5XXE_CONTROL_WORD_PARAMETER_SET)
     FIELDSCRIBE_FLAG_NAME("parameter_set", "set_1", NORD_SK5XXE_CONTROL_WORD_PARAMETER_SET_SET_1)
     FIELDSCRIBE_FLAG_NAME("parameter_set", "set_2", NORD_SK5XXE_CONTROL_WORD_PARAMETER_SET_SET_2)
@@ -74,132 +55,91 @@ static void point_control_word(fieldscribe_vector *v)
 
 static void point_setpoint_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(NORD_SK5XXE_SETPOINT_1, FIELDSCRIBE_SPACE("holding") FIELDSCRIBE_ONE(NORD_SK5XXE_SETPOINT_1)
-        FIELDSCRIBE_RAWS(NORD_SK5XXE_SETPOINT_1) FIELDSCRIBE_CODE("P050[2]"))
-    FIELDSCRIBE_CHECK(nord_sk5xxe_setpoint_1_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(nord_sk5xxe_setpoint_1_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(nord_sk5xxe_setpoint_1_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(NORD_SK5XXE_SETPOINT_1, "holding", 1U, "P050[2]", FIELDSCRIBE_RAWS(NORD_SK5XXE_SETPOINT_1))
+    FIELDSCRIBE_PLAIN(nord_sk5xxe_setpoint_1, int32_t, uint16_t)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(NORD_SK5XXE_SETPOINT_1, 0U), FIELDSCRIBE_INDEX(NORD_SK5XXE_SETPOINT_1))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(nord_sk5xxe_setpoint_1_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(nord_sk5xxe_setpoint_1_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE(nord_sk5xxe_setpoint_1_frame, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(nord_sk5xxe_setpoint_1_frame, u16)
     FIELDSCRIBE_CALLS(nord_sk5xxe, setpoint_1, int32_t, uint16_t, PLAIN)
 }
 
 static void point_setpoint_2(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(NORD_SK5XXE_SETPOINT_2, FIELDSCRIBE_SPACE("holding") FIELDSCRIBE_ONE(NORD_SK5XXE_SETPOINT_2)
-        FIELDSCRIBE_RAWS(NORD_SK5XXE_SETPOINT_2) FIELDSCRIBE_CODE("P050[3]"))
-    FIELDSCRIBE_CHECK(nord_sk5xxe_setpoint_2_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(nord_sk5xxe_setpoint_2_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(nord_sk5xxe_setpoint_2_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(NORD_SK5XXE_SETPOINT_2, "holding", 1U, "P050[3]", FIELDSCRIBE_RAWS(NORD_SK5XXE_SETPOINT_2))
+    FIELDSCRIBE_PLAIN(nord_sk5xxe_setpoint_2, int32_t, uint16_t)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(NORD_SK5XXE_SETPOINT_2, 0U), FIELDSCRIBE_INDEX(NORD_SK5XXE_SETPOINT_2))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(nord_sk5xxe_setpoint_2_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(nord_sk5xxe_setpoint_2_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE(nord_sk5xxe_setpoint_2_frame, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(nord_sk5xxe_setpoint_2_frame, u16)
     FIELDSCRIBE_CALLS(nord_sk5xxe, setpoint_2, int32_t, uint16_t, PLAIN)
 }
 
 static void point_setpoint_3(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(NORD_SK5XXE_SETPOINT_3, FIELDSCRIBE_SPACE("holding") FIELDSCRIBE_ONE(NORD_SK5XXE_SETPOINT_3)
-        FIELDSCRIBE_RAWS(NORD_SK5XXE_SETPOINT_3) FIELDSCRIBE_CODE("P050[4]"))
-    FIELDSCRIBE_CHECK(nord_sk5xxe_setpoint_3_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(nord_sk5xxe_setpoint_3_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(nord_sk5xxe_setpoint_3_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(NORD_SK5XXE_SETPOINT_3, "holding", 1U, "P050[4]", FIELDSCRIBE_RAWS(NORD_SK5XXE_SETPOINT_3))
+    FIELDSCRIBE_PLAIN(nord_sk5xxe_setpoint_3, int32_t, uint16_t)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(NORD_SK5XXE_SETPOINT_3, 0U), FIELDSCRIBE_INDEX(NORD_SK5XXE_SETPOINT_3))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(nord_sk5xxe_setpoint_3_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(nord_sk5xxe_setpoint_3_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE(nord_sk5xxe_setpoint_3_frame, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(nord_sk5xxe_setpoint_3_frame, u16)
     FIELDSCRIBE_CALLS(nord_sk5xxe, setpoint_3, int32_t, uint16_t, PLAIN)
 }
 
 static void point_setpoint_4(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(NORD_SK5XXE_SETPOINT_4, FIELDSCRIBE_SPACE("holding") FIELDSCRIBE_ONE(NORD_SK5XXE_SETPOINT_4)
-        FIELDSCRIBE_RAWS(NORD_SK5XXE_SETPOINT_4) FIELDSCRIBE_CODE("P050[5]"))
-    FIELDSCRIBE_CHECK(nord_sk5xxe_setpoint_4_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(nord_sk5xxe_setpoint_4_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(nord_sk5xxe_setpoint_4_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(NORD_SK5XXE_SETPOINT_4, "holding", 1U, "P050[5]", FIELDSCRIBE_RAWS(NORD_SK5XXE_SETPOINT_4))
+    FIELDSCRIBE_PLAIN(nord_sk5xxe_setpoint_4, int32_t, uint16_t)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(NORD_SK5XXE_SETPOINT_4, 0U), FIELDSCRIBE_INDEX(NORD_SK5XXE_SETPOINT_4))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(nord_sk5xxe_setpoint_4_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(nord_sk5xxe_setpoint_4_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE(nord_sk5xxe_setpoint_4_frame, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(nord_sk5xxe_setpoint_4_frame, u16)
     FIELDSCRIBE_CALLS(nord_sk5xxe, setpoint_4, int32_t, uint16_t, PLAIN)
 }
 
 static void point_setpoint_5(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(NORD_SK5XXE_SETPOINT_5, FIELDSCRIBE_SPACE("holding") FIELDSCRIBE_ONE(NORD_SK5XXE_SETPOINT_5)
-        FIELDSCRIBE_RAWS(NORD_SK5XXE_SETPOINT_5) FIELDSCRIBE_CODE("P050[6]"))
-    FIELDSCRIBE_CHECK(nord_sk5xxe_setpoint_5_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(nord_sk5xxe_setpoint_5_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(nord_sk5xxe_setpoint_5_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(NORD_SK5XXE_SETPOINT_5, "holding", 1U, "P050[6]", FIELDSCRIBE_RAWS(NORD_SK5XXE_SETPOINT_5))
+    FIELDSCRIBE_PLAIN(nord_sk5xxe_setpoint_5, int32_t, uint16_t)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(NORD_SK5XXE_SETPOINT_5, 0U), FIELDSCRIBE_INDEX(NORD_SK5XXE_SETPOINT_5))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(nord_sk5xxe_setpoint_5_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(nord_sk5xxe_setpoint_5_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE(nord_sk5xxe_setpoint_5_frame, u16, uint16_t)
+    FIELDSCRIBE_READ_WRITE(nord_sk5xxe_setpoint_5_frame, u16)
     FIELDSCRIBE_CALLS(nord_sk5xxe, setpoint_5, int32_t, uint16_t, PLAIN)
 }
 
 static void point_status_word(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(NORD_SK5XXE_STATUS_WORD, FIELDSCRIBE_SPACE("holding") FIELDSCRIBE_ONE(NORD_SK5XXE_STATUS_WORD)
-        FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_CODE("P051[1]"))
+    FIELDSCRIBE_ADDRESS(NORD_SK5XXE_STATUS_WORD, "holding", 1U, "P051[1]", FIELDSCRIBE_ONLY_READ(0, 65535))
     FIELDSCRIBE_DECODE_COUNT(nord_sk5xxe_status_word_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(NORD_SK5XXE_STATUS_WORD, 0U), FIELDSCRIBE_INDEX(NORD_SK5XXE_STATUS_WORD))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(nord_sk5xxe_status_word_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(nord_sk5xxe_status_word_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(nord_sk5xxe_status_word_frame)
+    FIELDSCRIBE_READ(nord_sk5xxe_status_word_frame, u16)
     FIELDSCRIBE_CALL_READ(nord_sk5xxe, status_word, int32_t, uint16_t, PLAIN)
-    FIELDSCRIBE_TRUTH("ready_to_switch_on", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        NORD_SK5XXE_STATUS_WORD_READY_TO_SWITCH_ON_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK) & NORD_SK5XXE_STATUS_WORD_READY_TO_SWITCH_ON_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("ready_to_run", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        NORD_SK5XXE_STATUS_WORD_READY_TO_RUN_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK) & NORD_SK5XXE_STATUS_WORD_READY_TO_RUN_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("operation_enabled", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        NORD_SK5XXE_STATUS_WORD_OPERATION_ENABLED_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK) & NORD_SK5XXE_STATUS_WORD_OPERATION_ENABLED_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("fault", (((uint16_t)fieldscribe_bits(v, "raw")) & NORD_SK5XXE_STATUS_WORD_FAULT_MASK) != 0U,
-        ((((uint16_t)fieldscribe_bits(v, "raw")) ^ NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK) &
-        NORD_SK5XXE_STATUS_WORD_FAULT_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("voltage_enabled", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        NORD_SK5XXE_STATUS_WORD_VOLTAGE_ENABLED_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK) & NORD_SK5XXE_STATUS_WORD_VOLTAGE_ENABLED_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("quick_stop", (((uint16_t)fieldscribe_bits(v, "raw")) & NORD_SK5XXE_STATUS_WORD_QUICK_STOP_MASK)
-        != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK) &
-        NORD_SK5XXE_STATUS_WORD_QUICK_STOP_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("switch_on_inhibit", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        NORD_SK5XXE_STATUS_WORD_SWITCH_ON_INHIBIT_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK) & NORD_SK5XXE_STATUS_WORD_SWITCH_ON_INHIBIT_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("warning", (((uint16_t)fieldscribe_bits(v, "raw")) & NORD_SK5XXE_STATUS_WORD_WARNING_MASK) != 0U,
-        ((((uint16_t)fieldscribe_bits(v, "raw")) ^ NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK) &
-        NORD_SK5XXE_STATUS_WORD_WARNING_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("setpoint_reached", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        NORD_SK5XXE_STATUS_WORD_SETPOINT_REACHED_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK) & NORD_SK5XXE_STATUS_WORD_SETPOINT_REACHED_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("bus_control", (((uint16_t)fieldscribe_bits(v, "raw")) & NORD_SK5XXE_STATUS_WORD_BUS_CONTROL_MASK)
-        != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK) &
-        NORD_SK5XXE_STATUS_WORD_BUS_CONTROL_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("function_481_9", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        NORD_SK5XXE_STATUS_WORD_FUNCTION_481_9_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK) & NORD_SK5XXE_STATUS_WORD_FUNCTION_481_9_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("clockwise", (((uint16_t)fieldscribe_bits(v, "raw")) & NORD_SK5XXE_STATUS_WORD_CLOCKWISE_MASK) !=
-        0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK) &
-        NORD_SK5XXE_STATUS_WORD_CLOCKWISE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("counter_clockwise", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        NORD_SK5XXE_STATUS_WORD_COUNTER_CLOCKWISE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK) & NORD_SK5XXE_STATUS_WORD_COUNTER_CLOCKWISE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("function_481_10", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        NORD_SK5XXE_STATUS_WORD_FUNCTION_481_10_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK) & NORD_SK5XXE_STATUS_WORD_FUNCTION_481_10_MASK) != 0U)
-    FIELDSCRIBE_WIDE_FLAG("parameter_set", nord_sk5xxe_status_word_parameter_set((uint16_t)fieldscribe_bits(v, "raw")),
+    FIELDSCRIBE_TRUTH("ready_to_switch_on", uint16_t, NORD_SK5XXE_STATUS_WORD_READY_TO_SWITCH_ON_MASK,
+        NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("ready_to_run", uint16_t, NORD_SK5XXE_STATUS_WORD_READY_TO_RUN_MASK,
+        NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("operation_enabled", uint16_t, NORD_SK5XXE_STATUS_WORD_OPERATION_ENABLED_MASK,
+        NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("fault", uint16_t, NORD_SK5XXE_STATUS_WORD_FAULT_MASK, NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("voltage_enabled", uint16_t, NORD_SK5XXE_STATUS_WORD_VOLTAGE_ENABLED_MASK,
+        NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("quick_stop", uint16_t, NORD_SK5XXE_STATUS_WORD_QUICK_STOP_MASK,
+        NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("switch_on_inhibit", uint16_t, NORD_SK5XXE_STATUS_WORD_SWITCH_ON_INHIBIT_MASK,
+        NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("warning", uint16_t, NORD_SK5XXE_STATUS_WORD_WARNING_MASK,
+        NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("setpoint_reached", uint16_t, NORD_SK5XXE_STATUS_WORD_SETPOINT_REACHED_MASK,
+        NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("bus_control", uint16_t, NORD_SK5XXE_STATUS_WORD_BUS_CONTROL_MASK,
+        NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("function_481_9", uint16_t, NORD_SK5XXE_STATUS_WORD_FUNCTION_481_9_MASK,
+        NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("clockwise", uint16_t, NORD_SK5XXE_STATUS_WORD_CLOCKWISE_MASK,
+        NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("counter_clockwise", uint16_t, NORD_SK5XXE_STATUS_WORD_COUNTER_CLOCKWISE_MASK,
+        NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("function_481_10", uint16_t, NORD_SK5XXE_STATUS_WORD_FUNCTION_481_10_MASK,
+        NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_WIDE_FLAG("parameter_set", uint16_t, nord_sk5xxe_status_word_parameter_set,
         NORD_SK5XXE_STATUS_WORD_PARAMETER_SET)
     FIELDSCRIBE_FLAG_NAME("parameter_set", "set_1", NORD_SK5XXE_STATUS_WORD_PARAMETER_SET_SET_1)
     FIELDSCRIBE_FLAG_NAME("parameter_set", "set_2", NORD_SK5XXE_STATUS_WORD_PARAMETER_SET_SET_2)
@@ -209,61 +149,56 @@ static void point_status_word(fieldscribe_vector *v)
 
 static void point_actual_value_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(NORD_SK5XXE_ACTUAL_VALUE_1, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(NORD_SK5XXE_ACTUAL_VALUE_1) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_CODE("P051[2]"))
+    FIELDSCRIBE_ADDRESS(NORD_SK5XXE_ACTUAL_VALUE_1, "holding", 1U, "P051[2]", FIELDSCRIBE_ONLY_READ(0, 65535))
     FIELDSCRIBE_DECODE_COUNT(nord_sk5xxe_actual_value_1_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(NORD_SK5XXE_ACTUAL_VALUE_1, 0U), FIELDSCRIBE_INDEX(NORD_SK5XXE_ACTUAL_VALUE_1))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(nord_sk5xxe_actual_value_1_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(nord_sk5xxe_actual_value_1_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(nord_sk5xxe_actual_value_1_frame)
+    FIELDSCRIBE_READ(nord_sk5xxe_actual_value_1_frame, u16)
     FIELDSCRIBE_CALL_READ(nord_sk5xxe, actual_value_1, int32_t, uint16_t, PLAIN)
 }
 
 static void point_actual_value_2(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(NORD_SK5XXE_ACTUAL_VALUE_2, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(NORD_SK5XXE_ACTUAL_VALUE_2) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_CODE("P051[3]"))
+    FIELDSCRIBE_ADDRESS(NORD_SK5XXE_ACTUAL_VALUE_2, "holding", 1U, "P051[3]", FIELDSCRIBE_ONLY_READ(0, 65535))
     FIELDSCRIBE_DECODE_COUNT(nord_sk5xxe_actual_value_2_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(NORD_SK5XXE_ACTUAL_VALUE_2, 0U), FIELDSCRIBE_INDEX(NORD_SK5XXE_ACTUAL_VALUE_2))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(nord_sk5xxe_actual_value_2_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(nord_sk5xxe_actual_value_2_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(nord_sk5xxe_actual_value_2_frame)
+    FIELDSCRIBE_READ(nord_sk5xxe_actual_value_2_frame, u16)
     FIELDSCRIBE_CALL_READ(nord_sk5xxe, actual_value_2, int32_t, uint16_t, PLAIN)
 }
 
 static void point_actual_value_3(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(NORD_SK5XXE_ACTUAL_VALUE_3, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(NORD_SK5XXE_ACTUAL_VALUE_3) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_CODE("P051[4]"))
+    FIELDSCRIBE_ADDRESS(NORD_SK5XXE_ACTUAL_VALUE_3, "holding", 1U, "P051[4]", FIELDSCRIBE_ONLY_READ(0, 65535))
     FIELDSCRIBE_DECODE_COUNT(nord_sk5xxe_actual_value_3_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(NORD_SK5XXE_ACTUAL_VALUE_3, 0U), FIELDSCRIBE_INDEX(NORD_SK5XXE_ACTUAL_VALUE_3))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(nord_sk5xxe_actual_value_3_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(nord_sk5xxe_actual_value_3_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(nord_sk5xxe_actual_value_3_frame)
+    FIELDSCRIBE_READ(nord_sk5xxe_actual_value_3_frame, u16)
     FIELDSCRIBE_CALL_READ(nord_sk5xxe, actual_value_3, int32_t, uint16_t, PLAIN)
 }
 
 static void point_actual_value_4(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(NORD_SK5XXE_ACTUAL_VALUE_4, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(NORD_SK5XXE_ACTUAL_VALUE_4) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_CODE("P051[5]"))
+    FIELDSCRIBE_ADDRESS(NORD_SK5XXE_ACTUAL_VALUE_4, "holding", 1U, "P051[5]", FIELDSCRIBE_ONLY_READ(0, 65535))
     FIELDSCRIBE_DECODE_COUNT(nord_sk5xxe_actual_value_4_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(NORD_SK5XXE_ACTUAL_VALUE_4, 0U), FIELDSCRIBE_INDEX(NORD_SK5XXE_ACTUAL_VALUE_4))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(nord_sk5xxe_actual_value_4_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(nord_sk5xxe_actual_value_4_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(nord_sk5xxe_actual_value_4_frame)
+    FIELDSCRIBE_READ(nord_sk5xxe_actual_value_4_frame, u16)
     FIELDSCRIBE_CALL_READ(nord_sk5xxe, actual_value_4, int32_t, uint16_t, PLAIN)
 }
 
 static void point_actual_value_5(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(NORD_SK5XXE_ACTUAL_VALUE_5, FIELDSCRIBE_SPACE("holding")
-        FIELDSCRIBE_ONE(NORD_SK5XXE_ACTUAL_VALUE_5) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_CODE("P051[6]"))
+    FIELDSCRIBE_ADDRESS(NORD_SK5XXE_ACTUAL_VALUE_5, "holding", 1U, "P051[6]", FIELDSCRIBE_ONLY_READ(0, 65535))
     FIELDSCRIBE_DECODE_COUNT(nord_sk5xxe_actual_value_5_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(NORD_SK5XXE_ACTUAL_VALUE_5, 0U), FIELDSCRIBE_INDEX(NORD_SK5XXE_ACTUAL_VALUE_5))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(nord_sk5xxe_actual_value_5_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(nord_sk5xxe_actual_value_5_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(nord_sk5xxe_actual_value_5_frame)
+    FIELDSCRIBE_READ(nord_sk5xxe_actual_value_5_frame, u16)
     FIELDSCRIBE_CALL_READ(nord_sk5xxe, actual_value_5, int32_t, uint16_t, PLAIN)
 }
 

@@ -27,23 +27,34 @@ static inline const siemens_mm4_with_reference_frequency_and_uss_normalisation
     return &with;
 }
 
+static void names_of_uss_normalisation(fieldscribe_vector *v)
+{
+    FIELDSCRIBE_NAMED("hundredths_of_hertz", SIEMENS_MM4_USS_NORMALISATION_HUNDREDTHS_OF_HERTZ)
+    FIELDSCRIBE_NAMED("by_reference_frequency", SIEMENS_MM4_USS_NORMALISATION_BY_REFERENCE_FREQUENCY)
+}
+
+static void names_of_uss_pkw_length(fieldscribe_vector *v)
+{
+    FIELDSCRIBE_NAMED("variable", SIEMENS_MM4_USS_PKW_LENGTH_VARIABLE)
+    FIELDSCRIBE_NAMED("words_4", SIEMENS_MM4_USS_PKW_LENGTH_WORDS_4)
+    FIELDSCRIBE_NAMED("words_3", SIEMENS_MM4_USS_PKW_LENGTH_WORDS_3)
+    FIELDSCRIBE_NAMED("none", SIEMENS_MM4_USS_PKW_LENGTH_NONE)
+}
+
 static void point_user_access_level(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USER_ACCESS_LEVEL, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_USER_ACCESS_LEVEL) FIELDSCRIBE_RAWS(SIEMENS_MM4_USER_ACCESS_LEVEL)
-        FIELDSCRIBE_CODE("P0003"))
-    FIELDSCRIBE_CHECK(siemens_mm4_user_access_level_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_user_access_level_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_user_access_level_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USER_ACCESS_LEVEL, "parameter", 1U, "P0003",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USER_ACCESS_LEVEL))
+    FIELDSCRIBE_PLAIN(siemens_mm4_user_access_level, int32_t, uint16_t)
     FIELDSCRIBE_NAME(siemens_mm4_user_access_level_name, int32_t)
     FIELDSCRIBE_NAMED("expert", SIEMENS_MM4_USER_ACCESS_LEVEL_EXPERT)
     FIELDSCRIBE_NAMED("level_2", SIEMENS_MM4_USER_ACCESS_LEVEL_LEVEL_2)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_user_access_level_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_user_access_level_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_user_access_level_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_user_access_level_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_user_access_level_eeprom_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_user_access_level_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_user_access_level_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_user_access_level_frame, u16)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_user_access_level_frame, u16)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_user_access_level_eeprom_frame, u16)
     FIELDSCRIBE_CALL_READ(siemens_mm4, user_access_level, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, user_access_level, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, user_access_level, int32_t, uint16_t, PLAIN)
@@ -51,88 +62,60 @@ static void point_user_access_level(fieldscribe_vector *v)
 
 static void point_inverter_status_word(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_INVERTER_STATUS_WORD, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_INVERTER_STATUS_WORD) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_CODE("r0052"))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_INVERTER_STATUS_WORD, "parameter", 1U, "r0052", FIELDSCRIBE_ONLY_READ(0, 65535))
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_inverter_status_word_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_inverter_status_word_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_inverter_status_word_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_inverter_status_word_frame)
+    FIELDSCRIBE_READ(siemens_mm4_inverter_status_word_frame, u16)
     FIELDSCRIBE_CALL_READ(siemens_mm4, inverter_status_word, int32_t, uint16_t, PLAIN)
-    FIELDSCRIBE_TRUTH("ready_to_switch_on", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_INVERTER_STATUS_WORD_READY_TO_SWITCH_ON_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_READY_TO_SWITCH_ON_MASK) !=
-        0U)
-    FIELDSCRIBE_TRUTH("ready_to_run", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_INVERTER_STATUS_WORD_READY_TO_RUN_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_READY_TO_RUN_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("operation_enabled", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_INVERTER_STATUS_WORD_OPERATION_ENABLED_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_OPERATION_ENABLED_MASK) !=
-        0U)
-    FIELDSCRIBE_TRUTH("fault", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_INVERTER_STATUS_WORD_FAULT_MASK) !=
-        0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) &
-        SIEMENS_MM4_INVERTER_STATUS_WORD_FAULT_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("off2_pending", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_INVERTER_STATUS_WORD_OFF2_PENDING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_OFF2_PENDING_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("off3_pending", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_INVERTER_STATUS_WORD_OFF3_PENDING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_OFF3_PENDING_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("switch_on_inhibit", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_INVERTER_STATUS_WORD_SWITCH_ON_INHIBIT_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_SWITCH_ON_INHIBIT_MASK) !=
-        0U)
-    FIELDSCRIBE_TRUTH("warning", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_INVERTER_STATUS_WORD_WARNING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_WARNING_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("deviation", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_INVERTER_STATUS_WORD_DEVIATION_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_DEVIATION_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("control_requested", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_INVERTER_STATUS_WORD_CONTROL_REQUESTED_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_CONTROL_REQUESTED_MASK) !=
-        0U)
-    FIELDSCRIBE_TRUTH("frequency_reached", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_INVERTER_STATUS_WORD_FREQUENCY_REACHED_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_FREQUENCY_REACHED_MASK) !=
-        0U)
-    FIELDSCRIBE_TRUTH("current_limit_warning", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_INVERTER_STATUS_WORD_CURRENT_LIMIT_WARNING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_CURRENT_LIMIT_WARNING_MASK)
-        != 0U)
-    FIELDSCRIBE_TRUTH("holding_brake_active", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_INVERTER_STATUS_WORD_HOLDING_BRAKE_ACTIVE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_HOLDING_BRAKE_ACTIVE_MASK)
-        != 0U)
-    FIELDSCRIBE_TRUTH("motor_overload", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_INVERTER_STATUS_WORD_MOTOR_OVERLOAD_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_MOTOR_OVERLOAD_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("clockwise", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_INVERTER_STATUS_WORD_CLOCKWISE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_CLOCKWISE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("inverter_overload", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_INVERTER_STATUS_WORD_INVERTER_OVERLOAD_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_INVERTER_OVERLOAD_MASK) !=
-        0U)
+    FIELDSCRIBE_TRUTH("ready_to_switch_on", uint16_t, SIEMENS_MM4_INVERTER_STATUS_WORD_READY_TO_SWITCH_ON_MASK,
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("ready_to_run", uint16_t, SIEMENS_MM4_INVERTER_STATUS_WORD_READY_TO_RUN_MASK,
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("operation_enabled", uint16_t, SIEMENS_MM4_INVERTER_STATUS_WORD_OPERATION_ENABLED_MASK,
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("fault", uint16_t, SIEMENS_MM4_INVERTER_STATUS_WORD_FAULT_MASK,
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("off2_pending", uint16_t, SIEMENS_MM4_INVERTER_STATUS_WORD_OFF2_PENDING_MASK,
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("off3_pending", uint16_t, SIEMENS_MM4_INVERTER_STATUS_WORD_OFF3_PENDING_MASK,
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("switch_on_inhibit", uint16_t, SIEMENS_MM4_INVERTER_STATUS_WORD_SWITCH_ON_INHIBIT_MASK,
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("warning", uint16_t, SIEMENS_MM4_INVERTER_STATUS_WORD_WARNING_MASK,
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("deviation", uint16_t, SIEMENS_MM4_INVERTER_STATUS_WORD_DEVIATION_MASK,
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("control_requested", uint16_t, SIEMENS_MM4_INVERTER_STATUS_WORD_CONTROL_REQUESTED_MASK,
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("frequency_reached", uint16_t, SIEMENS_MM4_INVERTER_STATUS_WORD_FREQUENCY_REACHED_MASK,
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("current_limit_warning", uint16_t, SIEMENS_MM4_INVERTER_STATUS_WORD_CURRENT_LIMIT_WARNING_MASK,
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("holding_brake_active", uint16_t, SIEMENS_MM4_INVERTER_STATUS_WORD_HOLDING_BRAKE_ACTIVE_MASK,
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("motor_overload", uint16_t, SIEMENS_MM4_INVERTER_STATUS_WORD_MOTOR_OVERLOAD_MASK,
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("clockwise", uint16_t, SIEMENS_MM4_INVERTER_STATUS_WORD_CLOCKWISE_MASK,
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("inverter_overload", uint16_t, SIEMENS_MM4_INVERTER_STATUS_WORD_INVERTER_OVERLOAD_MASK,
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK)
 }
 
 static void point_command_source(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_COMMAND_SOURCE, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_COMMAND_SOURCE) FIELDSCRIBE_RAWS(SIEMENS_MM4_COMMAND_SOURCE)
-        FIELDSCRIBE_CODE("P0700"))
-    FIELDSCRIBE_CHECK(siemens_mm4_command_source_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_command_source_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_command_source_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_COMMAND_SOURCE, "parameter", 1U, "P0700",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_COMMAND_SOURCE))
+    FIELDSCRIBE_PLAIN(siemens_mm4_command_source, int32_t, uint16_t)
     FIELDSCRIBE_NAME(siemens_mm4_command_source_name, int32_t)
     FIELDSCRIBE_NAMED("uss_rs485", SIEMENS_MM4_COMMAND_SOURCE_USS_RS485)
     FIELDSCRIBE_NAMED("uss_rs232", SIEMENS_MM4_COMMAND_SOURCE_USS_RS232)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_command_source_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_command_source_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_command_source_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_command_source_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_command_source_eeprom_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_command_source_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_command_source_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_command_source_frame, u16)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_command_source_frame, u16)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_command_source_eeprom_frame, u16)
     FIELDSCRIBE_CALL_READ(siemens_mm4, command_source, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, command_source, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, command_source, int32_t, uint16_t, PLAIN)
@@ -140,44 +123,38 @@ static void point_command_source(fieldscribe_vector *v)
 
 static void point_p0731_source(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_P0731_SOURCE, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_SEVERAL(SIEMENS_MM4_P0731_SOURCE) FIELDSCRIBE_RAWS(SIEMENS_MM4_P0731_SOURCE)
-        FIELDSCRIBE_CODE("P0731"))
-    FIELDSCRIBE_CHECK(siemens_mm4_p0731_source_check, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_p0731_source_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_p0731_source_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_P0731_SOURCE, "parameter", SIEMENS_MM4_P0731_SOURCE_WORDS, "P0731",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_P0731_SOURCE))
+    FIELDSCRIBE_PLAIN(siemens_mm4_p0731_source, int64_t, uint32_t)
     FIELDSCRIBE_WORDS(siemens_mm4_p0731_source, uint32_t, 2U)
-    FIELDSCRIBE_LIES(siemens_mm4_p0731_source_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_p0731_source_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_p0731_source_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_p0731_source_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_p0731_source_eeprom_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_p0731_source_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_p0731_source_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_p0731_source_frame, u32)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_p0731_source_frame, u32)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_p0731_source_eeprom_frame, u32)
     FIELDSCRIBE_CALL_READ(siemens_mm4, p0731_source, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, p0731_source, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, p0731_source, int64_t, uint32_t, PLAIN)
-    FIELDSCRIBE_WIDE_FLAG("source_parameter", siemens_mm4_p0731_source_source_parameter((uint32_t)fieldscribe_bits(v,
-        "raw")), SIEMENS_MM4_P0731_SOURCE_SOURCE_PARAMETER)
-    FIELDSCRIBE_WIDE_FLAG("source_bit", siemens_mm4_p0731_source_source_bit((uint32_t)fieldscribe_bits(v, "raw")),
+    FIELDSCRIBE_WIDE_FLAG("source_parameter", uint32_t, siemens_mm4_p0731_source_source_parameter,
+        SIEMENS_MM4_P0731_SOURCE_SOURCE_PARAMETER)
+    FIELDSCRIBE_WIDE_FLAG("source_bit", uint32_t, siemens_mm4_p0731_source_source_bit,
         SIEMENS_MM4_P0731_SOURCE_SOURCE_BIT)
 }
 
 static void point_main_setpoint_source(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_MAIN_SETPOINT_SOURCE, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_MAIN_SETPOINT_SOURCE) FIELDSCRIBE_RAWS(SIEMENS_MM4_MAIN_SETPOINT_SOURCE)
-        FIELDSCRIBE_CODE("P1000"))
-    FIELDSCRIBE_CHECK(siemens_mm4_main_setpoint_source_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_main_setpoint_source_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_main_setpoint_source_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_MAIN_SETPOINT_SOURCE, "parameter", 1U, "P1000",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_MAIN_SETPOINT_SOURCE))
+    FIELDSCRIBE_PLAIN(siemens_mm4_main_setpoint_source, int32_t, uint16_t)
     FIELDSCRIBE_NAME(siemens_mm4_main_setpoint_source_name, int32_t)
     FIELDSCRIBE_NAMED("uss_rs485", SIEMENS_MM4_MAIN_SETPOINT_SOURCE_USS_RS485)
     FIELDSCRIBE_NAMED("uss_rs232", SIEMENS_MM4_MAIN_SETPOINT_SOURCE_USS_RS232)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_main_setpoint_source_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_main_setpoint_source_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_main_setpoint_source_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_main_setpoint_source_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_main_setpoint_source_eeprom_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_main_setpoint_source_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_main_setpoint_source_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_main_setpoint_source_frame, u16)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_main_setpoint_source_frame, u16)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_main_setpoint_source_eeprom_frame, u16)
     FIELDSCRIBE_CALL_READ(siemens_mm4, main_setpoint_source, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, main_setpoint_source, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, main_setpoint_source, int32_t, uint16_t, PLAIN)
@@ -185,86 +162,74 @@ static void point_main_setpoint_source(fieldscribe_vector *v)
 
 static void point_maximum_frequency(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_MAXIMUM_FREQUENCY, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_SEVERAL(SIEMENS_MM4_MAXIMUM_FREQUENCY) FIELDSCRIBE_CODE("P1082"))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_MAXIMUM_FREQUENCY, "parameter", SIEMENS_MM4_MAXIMUM_FREQUENCY_WORDS, "P1082", )
     FIELDSCRIBE_CHECK(siemens_mm4_maximum_frequency_check, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_F32_ENCODE_COUNT(siemens_mm4_maximum_frequency_encode_count)
-    FIELDSCRIBE_F32_DECODE_COUNT(siemens_mm4_maximum_frequency_decode_count)
     FIELDSCRIBE_ENCODE(siemens_mm4_maximum_frequency_encode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_F32_DECODE_COUNT(siemens_mm4_maximum_frequency_decode_count)
     FIELDSCRIBE_DECODE(siemens_mm4_maximum_frequency_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(siemens_mm4_maximum_frequency, uint32_t, 2U)
-    FIELDSCRIBE_LIES(siemens_mm4_maximum_frequency_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_maximum_frequency_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_maximum_frequency_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_maximum_frequency_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_maximum_frequency_eeprom_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_maximum_frequency_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_maximum_frequency_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_maximum_frequency_frame, u32)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_maximum_frequency_frame, u32)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_maximum_frequency_eeprom_frame, u32)
     FIELDSCRIBE_CALL_READ(siemens_mm4, maximum_frequency, int64_t, uint32_t, TRY_COUNT_OF)
 }
 
 static void point_jog_time_selection_source(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_SEVERAL(SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE)
-        FIELDSCRIBE_RAWS(SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE) FIELDSCRIBE_CODE("P1124"))
-    FIELDSCRIBE_CHECK(siemens_mm4_jog_time_selection_source_check, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_jog_time_selection_source_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_jog_time_selection_source_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE, "parameter", SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_WORDS,
+        "P1124", FIELDSCRIBE_RAWS(SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE))
+    FIELDSCRIBE_PLAIN(siemens_mm4_jog_time_selection_source, int64_t, uint32_t)
     FIELDSCRIBE_WORDS(siemens_mm4_jog_time_selection_source, uint32_t, 2U)
-    FIELDSCRIBE_LIES(siemens_mm4_jog_time_selection_source_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_jog_time_selection_source_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_jog_time_selection_source_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_jog_time_selection_source_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_jog_time_selection_source_eeprom_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_jog_time_selection_source_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_jog_time_selection_source_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_jog_time_selection_source_frame, u32)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_jog_time_selection_source_frame, u32)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_jog_time_selection_source_eeprom_frame, u32)
     FIELDSCRIBE_CALL_READ(siemens_mm4, jog_time_selection_source, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, jog_time_selection_source, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, jog_time_selection_source, int64_t, uint32_t, PLAIN)
-    FIELDSCRIBE_WIDE_FLAG("source_parameter",
-        siemens_mm4_jog_time_selection_source_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
+    FIELDSCRIBE_WIDE_FLAG("source_parameter", uint32_t, siemens_mm4_jog_time_selection_source_source_parameter,
         SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_SOURCE_PARAMETER)
-    FIELDSCRIBE_WIDE_FLAG("source_bit", siemens_mm4_jog_time_selection_source_source_bit((uint32_t)fieldscribe_bits(v,
-        "raw")), SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_SOURCE_BIT)
+    FIELDSCRIBE_WIDE_FLAG("source_bit", uint32_t, siemens_mm4_jog_time_selection_source_source_bit,
+        SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_SOURCE_BIT)
 }
 
 static void point_dc_braking_source(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_DC_BRAKING_SOURCE, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_SEVERAL(SIEMENS_MM4_DC_BRAKING_SOURCE) FIELDSCRIBE_RAWS(SIEMENS_MM4_DC_BRAKING_SOURCE)
-        FIELDSCRIBE_CODE("P1230"))
-    FIELDSCRIBE_CHECK(siemens_mm4_dc_braking_source_check, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_dc_braking_source_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_dc_braking_source_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_DC_BRAKING_SOURCE, "parameter", SIEMENS_MM4_DC_BRAKING_SOURCE_WORDS, "P1230",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_DC_BRAKING_SOURCE))
+    FIELDSCRIBE_PLAIN(siemens_mm4_dc_braking_source, int64_t, uint32_t)
     FIELDSCRIBE_WORDS(siemens_mm4_dc_braking_source, uint32_t, 2U)
-    FIELDSCRIBE_LIES(siemens_mm4_dc_braking_source_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_dc_braking_source_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_dc_braking_source_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_dc_braking_source_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_dc_braking_source_eeprom_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_dc_braking_source_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_dc_braking_source_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_dc_braking_source_frame, u32)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_dc_braking_source_frame, u32)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_dc_braking_source_eeprom_frame, u32)
     FIELDSCRIBE_CALL_READ(siemens_mm4, dc_braking_source, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, dc_braking_source, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, dc_braking_source, int64_t, uint32_t, PLAIN)
-    FIELDSCRIBE_WIDE_FLAG("source_parameter",
-        siemens_mm4_dc_braking_source_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
+    FIELDSCRIBE_WIDE_FLAG("source_parameter", uint32_t, siemens_mm4_dc_braking_source_source_parameter,
         SIEMENS_MM4_DC_BRAKING_SOURCE_SOURCE_PARAMETER)
-    FIELDSCRIBE_WIDE_FLAG("source_bit", siemens_mm4_dc_braking_source_source_bit((uint32_t)fieldscribe_bits(v, "raw")),
+    FIELDSCRIBE_WIDE_FLAG("source_bit", uint32_t, siemens_mm4_dc_braking_source_source_bit,
         SIEMENS_MM4_DC_BRAKING_SOURCE_SOURCE_BIT)
 }
 
 static void point_output_phase_sequence(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE) FIELDSCRIBE_RAWS(SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE)
-        FIELDSCRIBE_CODE("P1820"))
-    FIELDSCRIBE_CHECK(siemens_mm4_output_phase_sequence_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_output_phase_sequence_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_output_phase_sequence_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE, "parameter", 1U, "P1820",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE))
+    FIELDSCRIBE_PLAIN(siemens_mm4_output_phase_sequence, int32_t, uint16_t)
     FIELDSCRIBE_NAME(siemens_mm4_output_phase_sequence_name, int32_t)
     FIELDSCRIBE_NAMED("reversed", SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE_REVERSED)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_output_phase_sequence_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_output_phase_sequence_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_output_phase_sequence_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_output_phase_sequence_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_output_phase_sequence_eeprom_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_output_phase_sequence_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_output_phase_sequence_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_output_phase_sequence_frame, u16)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_output_phase_sequence_frame, u16)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_output_phase_sequence_eeprom_frame, u16)
     FIELDSCRIBE_CALL_READ(siemens_mm4, output_phase_sequence, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, output_phase_sequence, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, output_phase_sequence, int32_t, uint16_t, PLAIN)
@@ -272,41 +237,36 @@ static void point_output_phase_sequence(fieldscribe_vector *v)
 
 static void point_reference_frequency(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_REFERENCE_FREQUENCY, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_SEVERAL(SIEMENS_MM4_REFERENCE_FREQUENCY) FIELDSCRIBE_CODE("P2000"))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_REFERENCE_FREQUENCY, "parameter", SIEMENS_MM4_REFERENCE_FREQUENCY_WORDS, "P2000", )
     FIELDSCRIBE_CHECK(siemens_mm4_reference_frequency_check, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_F32_ENCODE_COUNT(siemens_mm4_reference_frequency_encode_count)
-    FIELDSCRIBE_F32_DECODE_COUNT(siemens_mm4_reference_frequency_decode_count)
     FIELDSCRIBE_ENCODE(siemens_mm4_reference_frequency_encode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_F32_DECODE_COUNT(siemens_mm4_reference_frequency_decode_count)
     FIELDSCRIBE_DECODE(siemens_mm4_reference_frequency_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(siemens_mm4_reference_frequency, uint32_t, 2U)
-    FIELDSCRIBE_LIES(siemens_mm4_reference_frequency_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_reference_frequency_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_reference_frequency_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_reference_frequency_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_reference_frequency_eeprom_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_reference_frequency_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_reference_frequency_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_reference_frequency_frame, u32)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_reference_frequency_frame, u32)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_reference_frequency_eeprom_frame, u32)
     FIELDSCRIBE_CALL_READ(siemens_mm4, reference_frequency, int64_t, uint32_t, TRY_COUNT_OF)
 }
 
 static void point_uss_normalisation_rs485(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_NORMALISATION_RS485, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_NORMALISATION_RS485) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_NORMALISATION_RS485)
-        FIELDSCRIBE_CODE("P2009"))
-    FIELDSCRIBE_CHECK(siemens_mm4_uss_normalisation_rs485_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_normalisation_rs485_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_normalisation_rs485_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_NORMALISATION_RS485, "parameter", 1U, "P2009",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_NORMALISATION_RS485))
+    FIELDSCRIBE_PLAIN(siemens_mm4_uss_normalisation_rs485, int32_t, uint16_t)
     FIELDSCRIBE_NAME(siemens_mm4_uss_normalisation_name, int32_t)
-    FIELDSCRIBE_NAMED("hundredths_of_hertz", SIEMENS_MM4_USS_NORMALISATION_HUNDREDTHS_OF_HERTZ)
-    FIELDSCRIBE_NAMED("by_reference_frequency", SIEMENS_MM4_USS_NORMALISATION_BY_REFERENCE_FREQUENCY)
+    FIELDSCRIBE_NAMES_OF(uss_normalisation)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_NORMALISATION_RS485, 0U),
         FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_NORMALISATION_RS485))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_normalisation_rs485_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_normalisation_rs485_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_normalisation_rs485_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_normalisation_rs485_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_normalisation_rs485_eeprom_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_normalisation_rs485_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_normalisation_rs485_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_uss_normalisation_rs485_frame, u16)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_normalisation_rs485_frame, u16)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_normalisation_rs485_eeprom_frame, u16)
     FIELDSCRIBE_CALL_READ(siemens_mm4, uss_normalisation_rs485, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_normalisation_rs485, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_normalisation_rs485, int32_t, uint16_t, PLAIN)
@@ -314,23 +274,19 @@ static void point_uss_normalisation_rs485(fieldscribe_vector *v)
 
 static void point_uss_normalisation_rs232(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_NORMALISATION_RS232, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_NORMALISATION_RS232) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_NORMALISATION_RS232)
-        FIELDSCRIBE_CODE("P2009"))
-    FIELDSCRIBE_CHECK(siemens_mm4_uss_normalisation_rs232_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_normalisation_rs232_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_normalisation_rs232_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_NORMALISATION_RS232, "parameter", 1U, "P2009",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_NORMALISATION_RS232))
+    FIELDSCRIBE_PLAIN(siemens_mm4_uss_normalisation_rs232, int32_t, uint16_t)
     FIELDSCRIBE_NAME(siemens_mm4_uss_normalisation_name, int32_t)
-    FIELDSCRIBE_NAMED("hundredths_of_hertz", SIEMENS_MM4_USS_NORMALISATION_HUNDREDTHS_OF_HERTZ)
-    FIELDSCRIBE_NAMED("by_reference_frequency", SIEMENS_MM4_USS_NORMALISATION_BY_REFERENCE_FREQUENCY)
+    FIELDSCRIBE_NAMES_OF(uss_normalisation)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_NORMALISATION_RS232, 0U),
         FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_NORMALISATION_RS232))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_normalisation_rs232_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_normalisation_rs232_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_normalisation_rs232_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_normalisation_rs232_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_normalisation_rs232_eeprom_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_normalisation_rs232_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_normalisation_rs232_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_uss_normalisation_rs232_frame, u16)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_normalisation_rs232_frame, u16)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_normalisation_rs232_eeprom_frame, u16)
     FIELDSCRIBE_CALL_READ(siemens_mm4, uss_normalisation_rs232, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_normalisation_rs232, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_normalisation_rs232, int32_t, uint16_t, PLAIN)
@@ -338,20 +294,17 @@ static void point_uss_normalisation_rs232(fieldscribe_vector *v)
 
 static void point_uss_baud_rate_index_0(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_BAUD_RATE_INDEX_0, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_BAUD_RATE_INDEX_0) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_BAUD_RATE_INDEX_0)
-        FIELDSCRIBE_CODE("P2010"))
-    FIELDSCRIBE_CHECK(siemens_mm4_uss_baud_rate_index_0_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_baud_rate_index_0_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_baud_rate_index_0_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_BAUD_RATE_INDEX_0, "parameter", 1U, "P2010",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_BAUD_RATE_INDEX_0))
+    FIELDSCRIBE_PLAIN(siemens_mm4_uss_baud_rate_index_0, int32_t, uint16_t)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_BAUD_RATE_INDEX_0, 0U),
         FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_BAUD_RATE_INDEX_0))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_baud_rate_index_0_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_baud_rate_index_0_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_baud_rate_index_0_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_baud_rate_index_0_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_baud_rate_index_0_eeprom_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_baud_rate_index_0_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_baud_rate_index_0_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_uss_baud_rate_index_0_frame, u16)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_baud_rate_index_0_frame, u16)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_baud_rate_index_0_eeprom_frame, u16)
     FIELDSCRIBE_CALL_READ(siemens_mm4, uss_baud_rate_index_0, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_baud_rate_index_0, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_baud_rate_index_0, int32_t, uint16_t, PLAIN)
@@ -359,20 +312,17 @@ static void point_uss_baud_rate_index_0(fieldscribe_vector *v)
 
 static void point_uss_baud_rate_index_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_BAUD_RATE_INDEX_1, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_BAUD_RATE_INDEX_1) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_BAUD_RATE_INDEX_1)
-        FIELDSCRIBE_CODE("P2010"))
-    FIELDSCRIBE_CHECK(siemens_mm4_uss_baud_rate_index_1_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_baud_rate_index_1_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_baud_rate_index_1_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_BAUD_RATE_INDEX_1, "parameter", 1U, "P2010",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_BAUD_RATE_INDEX_1))
+    FIELDSCRIBE_PLAIN(siemens_mm4_uss_baud_rate_index_1, int32_t, uint16_t)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_BAUD_RATE_INDEX_1, 0U),
         FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_BAUD_RATE_INDEX_1))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_baud_rate_index_1_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_baud_rate_index_1_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_baud_rate_index_1_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_baud_rate_index_1_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_baud_rate_index_1_eeprom_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_baud_rate_index_1_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_baud_rate_index_1_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_uss_baud_rate_index_1_frame, u16)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_baud_rate_index_1_frame, u16)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_baud_rate_index_1_eeprom_frame, u16)
     FIELDSCRIBE_CALL_READ(siemens_mm4, uss_baud_rate_index_1, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_baud_rate_index_1, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_baud_rate_index_1, int32_t, uint16_t, PLAIN)
@@ -380,20 +330,17 @@ static void point_uss_baud_rate_index_1(fieldscribe_vector *v)
 
 static void point_uss_slave_address_index_0(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0)
-        FIELDSCRIBE_CODE("P2011"))
-    FIELDSCRIBE_CHECK(siemens_mm4_uss_slave_address_index_0_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_slave_address_index_0_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_slave_address_index_0_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0, "parameter", 1U, "P2011",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0))
+    FIELDSCRIBE_PLAIN(siemens_mm4_uss_slave_address_index_0, int32_t, uint16_t)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0, 0U),
         FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_slave_address_index_0_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_slave_address_index_0_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_slave_address_index_0_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_slave_address_index_0_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_slave_address_index_0_eeprom_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_slave_address_index_0_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_slave_address_index_0_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_uss_slave_address_index_0_frame, u16)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_slave_address_index_0_frame, u16)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_slave_address_index_0_eeprom_frame, u16)
     FIELDSCRIBE_CALL_READ(siemens_mm4, uss_slave_address_index_0, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_slave_address_index_0, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_slave_address_index_0, int32_t, uint16_t, PLAIN)
@@ -401,20 +348,17 @@ static void point_uss_slave_address_index_0(fieldscribe_vector *v)
 
 static void point_uss_slave_address_index_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1)
-        FIELDSCRIBE_CODE("P2011"))
-    FIELDSCRIBE_CHECK(siemens_mm4_uss_slave_address_index_1_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_slave_address_index_1_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_slave_address_index_1_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1, "parameter", 1U, "P2011",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1))
+    FIELDSCRIBE_PLAIN(siemens_mm4_uss_slave_address_index_1, int32_t, uint16_t)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1, 0U),
         FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_slave_address_index_1_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_slave_address_index_1_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_slave_address_index_1_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_slave_address_index_1_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_slave_address_index_1_eeprom_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_slave_address_index_1_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_slave_address_index_1_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_uss_slave_address_index_1_frame, u16)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_slave_address_index_1_frame, u16)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_slave_address_index_1_eeprom_frame, u16)
     FIELDSCRIBE_CALL_READ(siemens_mm4, uss_slave_address_index_1, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_slave_address_index_1, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_slave_address_index_1, int32_t, uint16_t, PLAIN)
@@ -422,20 +366,17 @@ static void point_uss_slave_address_index_1(fieldscribe_vector *v)
 
 static void point_uss_pzd_length_index_0_mm410(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410)
-        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410) FIELDSCRIBE_CODE("P2012"))
-    FIELDSCRIBE_CHECK(siemens_mm4_uss_pzd_length_index_0_mm410_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_pzd_length_index_0_mm410_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_pzd_length_index_0_mm410_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410, "parameter", 1U, "P2012",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410))
+    FIELDSCRIBE_PLAIN(siemens_mm4_uss_pzd_length_index_0_mm410, int32_t, uint16_t)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410, 0U),
         FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_0_mm410_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_0_mm410_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_0_mm410_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_0_mm410_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_0_mm410_eeprom_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_pzd_length_index_0_mm410_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_pzd_length_index_0_mm410_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_0_mm410_frame, u16)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_0_mm410_frame, u16)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_0_mm410_eeprom_frame, u16)
     FIELDSCRIBE_CALL_READ(siemens_mm4, uss_pzd_length_index_0_mm410, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_pzd_length_index_0_mm410, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_pzd_length_index_0_mm410, int32_t, uint16_t, PLAIN)
@@ -443,20 +384,17 @@ static void point_uss_pzd_length_index_0_mm410(fieldscribe_vector *v)
 
 static void point_uss_pzd_length_index_0_mm420(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420)
-        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420) FIELDSCRIBE_CODE("P2012"))
-    FIELDSCRIBE_CHECK(siemens_mm4_uss_pzd_length_index_0_mm420_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_pzd_length_index_0_mm420_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_pzd_length_index_0_mm420_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420, "parameter", 1U, "P2012",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420))
+    FIELDSCRIBE_PLAIN(siemens_mm4_uss_pzd_length_index_0_mm420, int32_t, uint16_t)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420, 0U),
         FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_0_mm420_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_0_mm420_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_0_mm420_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_0_mm420_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_0_mm420_eeprom_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_pzd_length_index_0_mm420_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_pzd_length_index_0_mm420_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_0_mm420_frame, u16)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_0_mm420_frame, u16)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_0_mm420_eeprom_frame, u16)
     FIELDSCRIBE_CALL_READ(siemens_mm4, uss_pzd_length_index_0_mm420, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_pzd_length_index_0_mm420, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_pzd_length_index_0_mm420, int32_t, uint16_t, PLAIN)
@@ -464,20 +402,17 @@ static void point_uss_pzd_length_index_0_mm420(fieldscribe_vector *v)
 
 static void point_uss_pzd_length_index_0_mm430(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430)
-        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430) FIELDSCRIBE_CODE("P2012"))
-    FIELDSCRIBE_CHECK(siemens_mm4_uss_pzd_length_index_0_mm430_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_pzd_length_index_0_mm430_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_pzd_length_index_0_mm430_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430, "parameter", 1U, "P2012",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430))
+    FIELDSCRIBE_PLAIN(siemens_mm4_uss_pzd_length_index_0_mm430, int32_t, uint16_t)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430, 0U),
         FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_0_mm430_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_0_mm430_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_0_mm430_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_0_mm430_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_0_mm430_eeprom_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_pzd_length_index_0_mm430_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_pzd_length_index_0_mm430_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_0_mm430_frame, u16)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_0_mm430_frame, u16)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_0_mm430_eeprom_frame, u16)
     FIELDSCRIBE_CALL_READ(siemens_mm4, uss_pzd_length_index_0_mm430, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_pzd_length_index_0_mm430, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_pzd_length_index_0_mm430, int32_t, uint16_t, PLAIN)
@@ -485,20 +420,17 @@ static void point_uss_pzd_length_index_0_mm430(fieldscribe_vector *v)
 
 static void point_uss_pzd_length_index_0_mm440(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440)
-        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440) FIELDSCRIBE_CODE("P2012"))
-    FIELDSCRIBE_CHECK(siemens_mm4_uss_pzd_length_index_0_mm440_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_pzd_length_index_0_mm440_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_pzd_length_index_0_mm440_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440, "parameter", 1U, "P2012",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440))
+    FIELDSCRIBE_PLAIN(siemens_mm4_uss_pzd_length_index_0_mm440, int32_t, uint16_t)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440, 0U),
         FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_0_mm440_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_0_mm440_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_0_mm440_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_0_mm440_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_0_mm440_eeprom_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_pzd_length_index_0_mm440_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_pzd_length_index_0_mm440_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_0_mm440_frame, u16)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_0_mm440_frame, u16)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_0_mm440_eeprom_frame, u16)
     FIELDSCRIBE_CALL_READ(siemens_mm4, uss_pzd_length_index_0_mm440, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_pzd_length_index_0_mm440, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_pzd_length_index_0_mm440, int32_t, uint16_t, PLAIN)
@@ -506,20 +438,17 @@ static void point_uss_pzd_length_index_0_mm440(fieldscribe_vector *v)
 
 static void point_uss_pzd_length_index_1_mm410(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410)
-        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410) FIELDSCRIBE_CODE("P2012"))
-    FIELDSCRIBE_CHECK(siemens_mm4_uss_pzd_length_index_1_mm410_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_pzd_length_index_1_mm410_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_pzd_length_index_1_mm410_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410, "parameter", 1U, "P2012",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410))
+    FIELDSCRIBE_PLAIN(siemens_mm4_uss_pzd_length_index_1_mm410, int32_t, uint16_t)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410, 0U),
         FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_1_mm410_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_1_mm410_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_1_mm410_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_1_mm410_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_1_mm410_eeprom_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_pzd_length_index_1_mm410_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_pzd_length_index_1_mm410_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_1_mm410_frame, u16)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_1_mm410_frame, u16)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_1_mm410_eeprom_frame, u16)
     FIELDSCRIBE_CALL_READ(siemens_mm4, uss_pzd_length_index_1_mm410, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_pzd_length_index_1_mm410, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_pzd_length_index_1_mm410, int32_t, uint16_t, PLAIN)
@@ -527,20 +456,17 @@ static void point_uss_pzd_length_index_1_mm410(fieldscribe_vector *v)
 
 static void point_uss_pzd_length_index_1_mm420(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420)
-        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420) FIELDSCRIBE_CODE("P2012"))
-    FIELDSCRIBE_CHECK(siemens_mm4_uss_pzd_length_index_1_mm420_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_pzd_length_index_1_mm420_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_pzd_length_index_1_mm420_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420, "parameter", 1U, "P2012",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420))
+    FIELDSCRIBE_PLAIN(siemens_mm4_uss_pzd_length_index_1_mm420, int32_t, uint16_t)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420, 0U),
         FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_1_mm420_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_1_mm420_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_1_mm420_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_1_mm420_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_1_mm420_eeprom_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_pzd_length_index_1_mm420_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_pzd_length_index_1_mm420_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_1_mm420_frame, u16)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_1_mm420_frame, u16)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_1_mm420_eeprom_frame, u16)
     FIELDSCRIBE_CALL_READ(siemens_mm4, uss_pzd_length_index_1_mm420, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_pzd_length_index_1_mm420, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_pzd_length_index_1_mm420, int32_t, uint16_t, PLAIN)
@@ -548,20 +474,17 @@ static void point_uss_pzd_length_index_1_mm420(fieldscribe_vector *v)
 
 static void point_uss_pzd_length_index_1_mm430(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430)
-        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430) FIELDSCRIBE_CODE("P2012"))
-    FIELDSCRIBE_CHECK(siemens_mm4_uss_pzd_length_index_1_mm430_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_pzd_length_index_1_mm430_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_pzd_length_index_1_mm430_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430, "parameter", 1U, "P2012",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430))
+    FIELDSCRIBE_PLAIN(siemens_mm4_uss_pzd_length_index_1_mm430, int32_t, uint16_t)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430, 0U),
         FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_1_mm430_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_1_mm430_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_1_mm430_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_1_mm430_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_1_mm430_eeprom_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_pzd_length_index_1_mm430_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_pzd_length_index_1_mm430_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_1_mm430_frame, u16)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_1_mm430_frame, u16)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_1_mm430_eeprom_frame, u16)
     FIELDSCRIBE_CALL_READ(siemens_mm4, uss_pzd_length_index_1_mm430, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_pzd_length_index_1_mm430, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_pzd_length_index_1_mm430, int32_t, uint16_t, PLAIN)
@@ -569,20 +492,17 @@ static void point_uss_pzd_length_index_1_mm430(fieldscribe_vector *v)
 
 static void point_uss_pzd_length_index_1_mm440(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440)
-        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440) FIELDSCRIBE_CODE("P2012"))
-    FIELDSCRIBE_CHECK(siemens_mm4_uss_pzd_length_index_1_mm440_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_pzd_length_index_1_mm440_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_pzd_length_index_1_mm440_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440, "parameter", 1U, "P2012",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440))
+    FIELDSCRIBE_PLAIN(siemens_mm4_uss_pzd_length_index_1_mm440, int32_t, uint16_t)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440, 0U),
         FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_1_mm440_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_1_mm440_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_1_mm440_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_1_mm440_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_1_mm440_eeprom_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_pzd_length_index_1_mm440_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_pzd_length_index_1_mm440_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_1_mm440_frame, u16)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_1_mm440_frame, u16)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_1_mm440_eeprom_frame, u16)
     FIELDSCRIBE_CALL_READ(siemens_mm4, uss_pzd_length_index_1_mm440, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_pzd_length_index_1_mm440, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_pzd_length_index_1_mm440, int32_t, uint16_t, PLAIN)
@@ -590,25 +510,19 @@ static void point_uss_pzd_length_index_1_mm440(fieldscribe_vector *v)
 
 static void point_uss_pkw_length_index_0(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0)
-        FIELDSCRIBE_CODE("P2013"))
-    FIELDSCRIBE_CHECK(siemens_mm4_uss_pkw_length_index_0_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_pkw_length_index_0_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_pkw_length_index_0_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0, "parameter", 1U, "P2013",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0))
+    FIELDSCRIBE_PLAIN(siemens_mm4_uss_pkw_length_index_0, int32_t, uint16_t)
     FIELDSCRIBE_NAME(siemens_mm4_uss_pkw_length_name, int32_t)
-    FIELDSCRIBE_NAMED("variable", SIEMENS_MM4_USS_PKW_LENGTH_VARIABLE)
-    FIELDSCRIBE_NAMED("words_4", SIEMENS_MM4_USS_PKW_LENGTH_WORDS_4)
-    FIELDSCRIBE_NAMED("words_3", SIEMENS_MM4_USS_PKW_LENGTH_WORDS_3)
-    FIELDSCRIBE_NAMED("none", SIEMENS_MM4_USS_PKW_LENGTH_NONE)
+    FIELDSCRIBE_NAMES_OF(uss_pkw_length)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0, 0U),
         FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_pkw_length_index_0_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_pkw_length_index_0_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_pkw_length_index_0_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pkw_length_index_0_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pkw_length_index_0_eeprom_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_pkw_length_index_0_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_pkw_length_index_0_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_uss_pkw_length_index_0_frame, u16)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pkw_length_index_0_frame, u16)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pkw_length_index_0_eeprom_frame, u16)
     FIELDSCRIBE_CALL_READ(siemens_mm4, uss_pkw_length_index_0, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_pkw_length_index_0, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_pkw_length_index_0, int32_t, uint16_t, PLAIN)
@@ -616,25 +530,19 @@ static void point_uss_pkw_length_index_0(fieldscribe_vector *v)
 
 static void point_uss_pkw_length_index_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1)
-        FIELDSCRIBE_CODE("P2013"))
-    FIELDSCRIBE_CHECK(siemens_mm4_uss_pkw_length_index_1_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_pkw_length_index_1_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_pkw_length_index_1_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1, "parameter", 1U, "P2013",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1))
+    FIELDSCRIBE_PLAIN(siemens_mm4_uss_pkw_length_index_1, int32_t, uint16_t)
     FIELDSCRIBE_NAME(siemens_mm4_uss_pkw_length_name, int32_t)
-    FIELDSCRIBE_NAMED("variable", SIEMENS_MM4_USS_PKW_LENGTH_VARIABLE)
-    FIELDSCRIBE_NAMED("words_4", SIEMENS_MM4_USS_PKW_LENGTH_WORDS_4)
-    FIELDSCRIBE_NAMED("words_3", SIEMENS_MM4_USS_PKW_LENGTH_WORDS_3)
-    FIELDSCRIBE_NAMED("none", SIEMENS_MM4_USS_PKW_LENGTH_NONE)
+    FIELDSCRIBE_NAMES_OF(uss_pkw_length)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1, 0U),
         FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_pkw_length_index_1_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_pkw_length_index_1_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_pkw_length_index_1_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pkw_length_index_1_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pkw_length_index_1_eeprom_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_pkw_length_index_1_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_pkw_length_index_1_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_uss_pkw_length_index_1_frame, u16)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pkw_length_index_1_frame, u16)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pkw_length_index_1_eeprom_frame, u16)
     FIELDSCRIBE_CALL_READ(siemens_mm4, uss_pkw_length_index_1, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_pkw_length_index_1, int32_t, uint16_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_pkw_length_index_1, int32_t, uint16_t, PLAIN)
@@ -642,20 +550,19 @@ static void point_uss_pkw_length_index_1(fieldscribe_vector *v)
 
 static void point_uss_telegram_off_time_index_0(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0)
-        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0) FIELDSCRIBE_CODE("P2014"))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0, "parameter", 1U, "P2014",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_telegram_off_time_index_0_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_telegram_off_time_index_0_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_TRY_DECODE_COUNT(siemens_mm4_uss_telegram_off_time_index_0_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0, 0U),
         FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_telegram_off_time_index_0_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_telegram_off_time_index_0_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_telegram_off_time_index_0_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_telegram_off_time_index_0_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_telegram_off_time_index_0_eeprom_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_telegram_off_time_index_0_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_telegram_off_time_index_0_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_uss_telegram_off_time_index_0_frame, u16)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_telegram_off_time_index_0_frame, u16)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_telegram_off_time_index_0_eeprom_frame, u16)
     FIELDSCRIBE_CALL_READ(siemens_mm4, uss_telegram_off_time_index_0, int32_t, uint16_t, TRY_PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_telegram_off_time_index_0, int32_t, uint16_t, TRY_PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_telegram_off_time_index_0, int32_t, uint16_t, TRY_PLAIN)
@@ -666,20 +573,19 @@ static void point_uss_telegram_off_time_index_0(fieldscribe_vector *v)
 
 static void point_uss_telegram_off_time_index_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1)
-        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1) FIELDSCRIBE_CODE("P2014"))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1, "parameter", 1U, "P2014",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_telegram_off_time_index_1_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_telegram_off_time_index_1_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_TRY_DECODE_COUNT(siemens_mm4_uss_telegram_off_time_index_1_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1, 0U),
         FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_telegram_off_time_index_1_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_telegram_off_time_index_1_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_telegram_off_time_index_1_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_telegram_off_time_index_1_frame, u16, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_telegram_off_time_index_1_eeprom_frame, u16, uint16_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_telegram_off_time_index_1_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_telegram_off_time_index_1_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_uss_telegram_off_time_index_1_frame, u16)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_telegram_off_time_index_1_frame, u16)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_telegram_off_time_index_1_eeprom_frame, u16)
     FIELDSCRIBE_CALL_READ(siemens_mm4, uss_telegram_off_time_index_1, int32_t, uint16_t, TRY_PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_telegram_off_time_index_1, int32_t, uint16_t, TRY_PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_telegram_off_time_index_1, int32_t, uint16_t, TRY_PLAIN)
@@ -690,224 +596,191 @@ static void point_uss_telegram_off_time_index_1(fieldscribe_vector *v)
 
 static void point_uss_rs232_answer_source_index_0(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_SEVERAL(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0)
-        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0) FIELDSCRIBE_CODE("P2016"))
-    FIELDSCRIBE_CHECK(siemens_mm4_uss_rs232_answer_source_index_0_check, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_rs232_answer_source_index_0_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_rs232_answer_source_index_0_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0, "parameter",
+        SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_WORDS, "P2016",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0))
+    FIELDSCRIBE_PLAIN(siemens_mm4_uss_rs232_answer_source_index_0, int64_t, uint32_t)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0, 0U),
         FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0))
     FIELDSCRIBE_WORDS(siemens_mm4_uss_rs232_answer_source_index_0, uint32_t, 2U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_rs232_answer_source_index_0_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_rs232_answer_source_index_0_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_rs232_answer_source_index_0_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs232_answer_source_index_0_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs232_answer_source_index_0_eeprom_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_rs232_answer_source_index_0_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_rs232_answer_source_index_0_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_uss_rs232_answer_source_index_0_frame, u32)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs232_answer_source_index_0_frame, u32)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs232_answer_source_index_0_eeprom_frame, u32)
     FIELDSCRIBE_CALL_READ(siemens_mm4, uss_rs232_answer_source_index_0, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_rs232_answer_source_index_0, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_rs232_answer_source_index_0, int64_t, uint32_t, PLAIN)
-    FIELDSCRIBE_WIDE_FLAG("source_parameter",
-        siemens_mm4_uss_rs232_answer_source_index_0_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
+    FIELDSCRIBE_WIDE_FLAG("source_parameter", uint32_t, siemens_mm4_uss_rs232_answer_source_index_0_source_parameter,
         SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_SOURCE_PARAMETER)
-    FIELDSCRIBE_WIDE_FLAG("source_bit",
-        siemens_mm4_uss_rs232_answer_source_index_0_source_bit((uint32_t)fieldscribe_bits(v, "raw")),
+    FIELDSCRIBE_WIDE_FLAG("source_bit", uint32_t, siemens_mm4_uss_rs232_answer_source_index_0_source_bit,
         SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_SOURCE_BIT)
 }
 
 static void point_uss_rs232_answer_source_index_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_SEVERAL(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1)
-        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1) FIELDSCRIBE_CODE("P2016"))
-    FIELDSCRIBE_CHECK(siemens_mm4_uss_rs232_answer_source_index_1_check, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_rs232_answer_source_index_1_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_rs232_answer_source_index_1_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1, "parameter",
+        SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_WORDS, "P2016",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1))
+    FIELDSCRIBE_PLAIN(siemens_mm4_uss_rs232_answer_source_index_1, int64_t, uint32_t)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1, 0U),
         FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1))
     FIELDSCRIBE_WORDS(siemens_mm4_uss_rs232_answer_source_index_1, uint32_t, 2U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_rs232_answer_source_index_1_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_rs232_answer_source_index_1_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_rs232_answer_source_index_1_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs232_answer_source_index_1_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs232_answer_source_index_1_eeprom_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_rs232_answer_source_index_1_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_rs232_answer_source_index_1_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_uss_rs232_answer_source_index_1_frame, u32)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs232_answer_source_index_1_frame, u32)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs232_answer_source_index_1_eeprom_frame, u32)
     FIELDSCRIBE_CALL_READ(siemens_mm4, uss_rs232_answer_source_index_1, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_rs232_answer_source_index_1, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_rs232_answer_source_index_1, int64_t, uint32_t, PLAIN)
-    FIELDSCRIBE_WIDE_FLAG("source_parameter",
-        siemens_mm4_uss_rs232_answer_source_index_1_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
+    FIELDSCRIBE_WIDE_FLAG("source_parameter", uint32_t, siemens_mm4_uss_rs232_answer_source_index_1_source_parameter,
         SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_SOURCE_PARAMETER)
-    FIELDSCRIBE_WIDE_FLAG("source_bit",
-        siemens_mm4_uss_rs232_answer_source_index_1_source_bit((uint32_t)fieldscribe_bits(v, "raw")),
+    FIELDSCRIBE_WIDE_FLAG("source_bit", uint32_t, siemens_mm4_uss_rs232_answer_source_index_1_source_bit,
         SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_SOURCE_BIT)
 }
 
 static void point_uss_rs232_answer_source_index_2(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_SEVERAL(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2)
-        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2) FIELDSCRIBE_CODE("P2016"))
-    FIELDSCRIBE_CHECK(siemens_mm4_uss_rs232_answer_source_index_2_check, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_rs232_answer_source_index_2_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_rs232_answer_source_index_2_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2, "parameter",
+        SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_WORDS, "P2016",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2))
+    FIELDSCRIBE_PLAIN(siemens_mm4_uss_rs232_answer_source_index_2, int64_t, uint32_t)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2, 0U),
         FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2))
     FIELDSCRIBE_WORDS(siemens_mm4_uss_rs232_answer_source_index_2, uint32_t, 2U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_rs232_answer_source_index_2_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_rs232_answer_source_index_2_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_rs232_answer_source_index_2_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs232_answer_source_index_2_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs232_answer_source_index_2_eeprom_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_rs232_answer_source_index_2_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_rs232_answer_source_index_2_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_uss_rs232_answer_source_index_2_frame, u32)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs232_answer_source_index_2_frame, u32)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs232_answer_source_index_2_eeprom_frame, u32)
     FIELDSCRIBE_CALL_READ(siemens_mm4, uss_rs232_answer_source_index_2, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_rs232_answer_source_index_2, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_rs232_answer_source_index_2, int64_t, uint32_t, PLAIN)
-    FIELDSCRIBE_WIDE_FLAG("source_parameter",
-        siemens_mm4_uss_rs232_answer_source_index_2_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
+    FIELDSCRIBE_WIDE_FLAG("source_parameter", uint32_t, siemens_mm4_uss_rs232_answer_source_index_2_source_parameter,
         SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_SOURCE_PARAMETER)
-    FIELDSCRIBE_WIDE_FLAG("source_bit",
-        siemens_mm4_uss_rs232_answer_source_index_2_source_bit((uint32_t)fieldscribe_bits(v, "raw")),
+    FIELDSCRIBE_WIDE_FLAG("source_bit", uint32_t, siemens_mm4_uss_rs232_answer_source_index_2_source_bit,
         SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_SOURCE_BIT)
 }
 
 static void point_uss_rs232_answer_source_index_3(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_SEVERAL(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3)
-        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3) FIELDSCRIBE_CODE("P2016"))
-    FIELDSCRIBE_CHECK(siemens_mm4_uss_rs232_answer_source_index_3_check, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_rs232_answer_source_index_3_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_rs232_answer_source_index_3_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3, "parameter",
+        SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_WORDS, "P2016",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3))
+    FIELDSCRIBE_PLAIN(siemens_mm4_uss_rs232_answer_source_index_3, int64_t, uint32_t)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3, 0U),
         FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3))
     FIELDSCRIBE_WORDS(siemens_mm4_uss_rs232_answer_source_index_3, uint32_t, 2U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_rs232_answer_source_index_3_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_rs232_answer_source_index_3_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_rs232_answer_source_index_3_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs232_answer_source_index_3_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs232_answer_source_index_3_eeprom_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_rs232_answer_source_index_3_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_rs232_answer_source_index_3_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_uss_rs232_answer_source_index_3_frame, u32)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs232_answer_source_index_3_frame, u32)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs232_answer_source_index_3_eeprom_frame, u32)
     FIELDSCRIBE_CALL_READ(siemens_mm4, uss_rs232_answer_source_index_3, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_rs232_answer_source_index_3, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_rs232_answer_source_index_3, int64_t, uint32_t, PLAIN)
-    FIELDSCRIBE_WIDE_FLAG("source_parameter",
-        siemens_mm4_uss_rs232_answer_source_index_3_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
+    FIELDSCRIBE_WIDE_FLAG("source_parameter", uint32_t, siemens_mm4_uss_rs232_answer_source_index_3_source_parameter,
         SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_SOURCE_PARAMETER)
-    FIELDSCRIBE_WIDE_FLAG("source_bit",
-        siemens_mm4_uss_rs232_answer_source_index_3_source_bit((uint32_t)fieldscribe_bits(v, "raw")),
+    FIELDSCRIBE_WIDE_FLAG("source_bit", uint32_t, siemens_mm4_uss_rs232_answer_source_index_3_source_bit,
         SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_SOURCE_BIT)
 }
 
 static void point_uss_rs485_answer_source_index_0(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_SEVERAL(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0)
-        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0) FIELDSCRIBE_CODE("P2019"))
-    FIELDSCRIBE_CHECK(siemens_mm4_uss_rs485_answer_source_index_0_check, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_rs485_answer_source_index_0_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_rs485_answer_source_index_0_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0, "parameter",
+        SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_WORDS, "P2019",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0))
+    FIELDSCRIBE_PLAIN(siemens_mm4_uss_rs485_answer_source_index_0, int64_t, uint32_t)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0, 0U),
         FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0))
     FIELDSCRIBE_WORDS(siemens_mm4_uss_rs485_answer_source_index_0, uint32_t, 2U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_rs485_answer_source_index_0_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_rs485_answer_source_index_0_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_rs485_answer_source_index_0_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs485_answer_source_index_0_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs485_answer_source_index_0_eeprom_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_rs485_answer_source_index_0_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_rs485_answer_source_index_0_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_uss_rs485_answer_source_index_0_frame, u32)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs485_answer_source_index_0_frame, u32)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs485_answer_source_index_0_eeprom_frame, u32)
     FIELDSCRIBE_CALL_READ(siemens_mm4, uss_rs485_answer_source_index_0, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_rs485_answer_source_index_0, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_rs485_answer_source_index_0, int64_t, uint32_t, PLAIN)
-    FIELDSCRIBE_WIDE_FLAG("source_parameter",
-        siemens_mm4_uss_rs485_answer_source_index_0_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
+    FIELDSCRIBE_WIDE_FLAG("source_parameter", uint32_t, siemens_mm4_uss_rs485_answer_source_index_0_source_parameter,
         SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_SOURCE_PARAMETER)
-    FIELDSCRIBE_WIDE_FLAG("source_bit",
-        siemens_mm4_uss_rs485_answer_source_index_0_source_bit((uint32_t)fieldscribe_bits(v, "raw")),
+    FIELDSCRIBE_WIDE_FLAG("source_bit", uint32_t, siemens_mm4_uss_rs485_answer_source_index_0_source_bit,
         SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_SOURCE_BIT)
 }
 
 static void point_uss_rs485_answer_source_index_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_SEVERAL(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1)
-        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1) FIELDSCRIBE_CODE("P2019"))
-    FIELDSCRIBE_CHECK(siemens_mm4_uss_rs485_answer_source_index_1_check, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_rs485_answer_source_index_1_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_rs485_answer_source_index_1_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1, "parameter",
+        SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_WORDS, "P2019",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1))
+    FIELDSCRIBE_PLAIN(siemens_mm4_uss_rs485_answer_source_index_1, int64_t, uint32_t)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1, 0U),
         FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1))
     FIELDSCRIBE_WORDS(siemens_mm4_uss_rs485_answer_source_index_1, uint32_t, 2U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_rs485_answer_source_index_1_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_rs485_answer_source_index_1_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_rs485_answer_source_index_1_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs485_answer_source_index_1_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs485_answer_source_index_1_eeprom_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_rs485_answer_source_index_1_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_rs485_answer_source_index_1_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_uss_rs485_answer_source_index_1_frame, u32)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs485_answer_source_index_1_frame, u32)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs485_answer_source_index_1_eeprom_frame, u32)
     FIELDSCRIBE_CALL_READ(siemens_mm4, uss_rs485_answer_source_index_1, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_rs485_answer_source_index_1, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_rs485_answer_source_index_1, int64_t, uint32_t, PLAIN)
-    FIELDSCRIBE_WIDE_FLAG("source_parameter",
-        siemens_mm4_uss_rs485_answer_source_index_1_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
+    FIELDSCRIBE_WIDE_FLAG("source_parameter", uint32_t, siemens_mm4_uss_rs485_answer_source_index_1_source_parameter,
         SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_SOURCE_PARAMETER)
-    FIELDSCRIBE_WIDE_FLAG("source_bit",
-        siemens_mm4_uss_rs485_answer_source_index_1_source_bit((uint32_t)fieldscribe_bits(v, "raw")),
+    FIELDSCRIBE_WIDE_FLAG("source_bit", uint32_t, siemens_mm4_uss_rs485_answer_source_index_1_source_bit,
         SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_SOURCE_BIT)
 }
 
 static void point_uss_rs485_answer_source_index_2(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_SEVERAL(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2)
-        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2) FIELDSCRIBE_CODE("P2019"))
-    FIELDSCRIBE_CHECK(siemens_mm4_uss_rs485_answer_source_index_2_check, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_rs485_answer_source_index_2_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_rs485_answer_source_index_2_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2, "parameter",
+        SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_WORDS, "P2019",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2))
+    FIELDSCRIBE_PLAIN(siemens_mm4_uss_rs485_answer_source_index_2, int64_t, uint32_t)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2, 0U),
         FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2))
     FIELDSCRIBE_WORDS(siemens_mm4_uss_rs485_answer_source_index_2, uint32_t, 2U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_rs485_answer_source_index_2_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_rs485_answer_source_index_2_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_rs485_answer_source_index_2_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs485_answer_source_index_2_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs485_answer_source_index_2_eeprom_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_rs485_answer_source_index_2_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_rs485_answer_source_index_2_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_uss_rs485_answer_source_index_2_frame, u32)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs485_answer_source_index_2_frame, u32)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs485_answer_source_index_2_eeprom_frame, u32)
     FIELDSCRIBE_CALL_READ(siemens_mm4, uss_rs485_answer_source_index_2, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_rs485_answer_source_index_2, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_rs485_answer_source_index_2, int64_t, uint32_t, PLAIN)
-    FIELDSCRIBE_WIDE_FLAG("source_parameter",
-        siemens_mm4_uss_rs485_answer_source_index_2_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
+    FIELDSCRIBE_WIDE_FLAG("source_parameter", uint32_t, siemens_mm4_uss_rs485_answer_source_index_2_source_parameter,
         SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_SOURCE_PARAMETER)
-    FIELDSCRIBE_WIDE_FLAG("source_bit",
-        siemens_mm4_uss_rs485_answer_source_index_2_source_bit((uint32_t)fieldscribe_bits(v, "raw")),
+    FIELDSCRIBE_WIDE_FLAG("source_bit", uint32_t, siemens_mm4_uss_rs485_answer_source_index_2_source_bit,
         SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_SOURCE_BIT)
 }
 
 static void point_uss_rs485_answer_source_index_3(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3, FIELDSCRIBE_SPACE("parameter")
-        FIELDSCRIBE_SEVERAL(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3)
-        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3) FIELDSCRIBE_CODE("P2019"))
-    FIELDSCRIBE_CHECK(siemens_mm4_uss_rs485_answer_source_index_3_check, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_rs485_answer_source_index_3_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_rs485_answer_source_index_3_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3, "parameter",
+        SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_WORDS, "P2019",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3))
+    FIELDSCRIBE_PLAIN(siemens_mm4_uss_rs485_answer_source_index_3, int64_t, uint32_t)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3, 0U),
         FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3))
     FIELDSCRIBE_WORDS(siemens_mm4_uss_rs485_answer_source_index_3, uint32_t, 2U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_rs485_answer_source_index_3_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_LIES(siemens_mm4_uss_rs485_answer_source_index_3_eeprom_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_rs485_answer_source_index_3_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs485_answer_source_index_3_frame, u32, uint32_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs485_answer_source_index_3_eeprom_frame, u32, uint32_t)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_rs485_answer_source_index_3_frame)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_uss_rs485_answer_source_index_3_eeprom_frame)
+    FIELDSCRIBE_READ(siemens_mm4_uss_rs485_answer_source_index_3_frame, u32)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs485_answer_source_index_3_frame, u32)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs485_answer_source_index_3_eeprom_frame, u32)
     FIELDSCRIBE_CALL_READ(siemens_mm4, uss_rs485_answer_source_index_3, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(write, siemens_mm4, uss_rs485_answer_source_index_3, int64_t, uint32_t, PLAIN)
     FIELDSCRIBE_CALL_WRITE(store, siemens_mm4, uss_rs485_answer_source_index_3, int64_t, uint32_t, PLAIN)
-    FIELDSCRIBE_WIDE_FLAG("source_parameter",
-        siemens_mm4_uss_rs485_answer_source_index_3_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
+    FIELDSCRIBE_WIDE_FLAG("source_parameter", uint32_t, siemens_mm4_uss_rs485_answer_source_index_3_source_parameter,
         SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_SOURCE_PARAMETER)
-    FIELDSCRIBE_WIDE_FLAG("source_bit",
-        siemens_mm4_uss_rs485_answer_source_index_3_source_bit((uint32_t)fieldscribe_bits(v, "raw")),
+    FIELDSCRIBE_WIDE_FLAG("source_bit", uint32_t, siemens_mm4_uss_rs485_answer_source_index_3_source_bit,
         SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_SOURCE_BIT)
 }
 
 static void point_control_word(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_CONTROL_WORD, FIELDSCRIBE_SPACE("telegram")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_CONTROL_WORD) FIELDSCRIBE_RAWS(SIEMENS_MM4_CONTROL_WORD) FIELDSCRIBE_CODE("STW")
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_CONTROL_WORD, "telegram", 1U, "STW", FIELDSCRIBE_RAWS(SIEMENS_MM4_CONTROL_WORD)
         FIELDSCRIBE_REFERENCE("pzd", 1))
     FIELDSCRIBE_CHECK(siemens_mm4_control_word_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_control_word_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
@@ -915,64 +788,42 @@ static void point_control_word(fieldscribe_vector *v)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_CONTROL_WORD, 0U), FIELDSCRIBE_TELEGRAM(SIEMENS_MM4_CONTROL_WORD))
     FIELDSCRIBE_ONE_WORD(uint16_t)
     FIELDSCRIBE_LIES(siemens_mm4_control_word_frame, false, 0x0400U, 0x0400U)
-    FIELDSCRIBE_SEND(siemens_mm4_control_word_frame, u16, uint16_t)
-    FIELDSCRIBE_PUT(siemens_mm4_control_word_frame, u16, uint16_t, SIEMENS_MM4_CONTROL_WORD,
-        SIEMENS_MM4_TELEGRAM_TASK_WORDS)
-    FIELDSCRIBE_TRUTH("on", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_CONTROL_WORD_ON_MASK) != 0U,
-        ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) &
-        SIEMENS_MM4_CONTROL_WORD_ON_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("off2", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_CONTROL_WORD_OFF2_MASK) != 0U,
-        ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) &
-        SIEMENS_MM4_CONTROL_WORD_OFF2_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("off3", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_CONTROL_WORD_OFF3_MASK) != 0U,
-        ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) &
-        SIEMENS_MM4_CONTROL_WORD_OFF3_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("enable_operation", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_CONTROL_WORD_ENABLE_OPERATION_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_ENABLE_OPERATION_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("ramp_generator_operating", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_CONTROL_WORD_RAMP_GENERATOR_OPERATING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_RAMP_GENERATOR_OPERATING_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("enable_ramp_generator", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_CONTROL_WORD_ENABLE_RAMP_GENERATOR_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_ENABLE_RAMP_GENERATOR_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("enable_setpoint", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_CONTROL_WORD_ENABLE_SETPOINT_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_ENABLE_SETPOINT_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("acknowledge_fault", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_CONTROL_WORD_ACKNOWLEDGE_FAULT_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_ACKNOWLEDGE_FAULT_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("jog_clockwise", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_CONTROL_WORD_JOG_CLOCKWISE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_JOG_CLOCKWISE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("jog_counter_clockwise", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_CONTROL_WORD_JOG_COUNTER_CLOCKWISE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_JOG_COUNTER_CLOCKWISE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("setpoints_valid", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_CONTROL_WORD_SETPOINTS_VALID_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_SETPOINTS_VALID_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("invert_setpoint", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_CONTROL_WORD_INVERT_SETPOINT_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_INVERT_SETPOINT_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("free", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_CONTROL_WORD_FREE_MASK) != 0U,
-        ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) &
-        SIEMENS_MM4_CONTROL_WORD_FREE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("motor_potentiometer_up", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_CONTROL_WORD_MOTOR_POTENTIOMETER_UP_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_MOTOR_POTENTIOMETER_UP_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("motor_potentiometer_down", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_CONTROL_WORD_MOTOR_POTENTIOMETER_DOWN_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_MOTOR_POTENTIOMETER_DOWN_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("local_control", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_CONTROL_WORD_LOCAL_CONTROL_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_LOCAL_CONTROL_MASK) != 0U)
+    FIELDSCRIBE_SEND(siemens_mm4_control_word_frame, u16)
+    FIELDSCRIBE_PUT(siemens_mm4_control_word_frame, u16, SIEMENS_MM4_CONTROL_WORD, SIEMENS_MM4_TELEGRAM_TASK_WORDS)
+    FIELDSCRIBE_TRUTH("on", uint16_t, SIEMENS_MM4_CONTROL_WORD_ON_MASK, SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("off2", uint16_t, SIEMENS_MM4_CONTROL_WORD_OFF2_MASK, SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("off3", uint16_t, SIEMENS_MM4_CONTROL_WORD_OFF3_MASK, SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("enable_operation", uint16_t, SIEMENS_MM4_CONTROL_WORD_ENABLE_OPERATION_MASK,
+        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("ramp_generator_operating", uint16_t, SIEMENS_MM4_CONTROL_WORD_RAMP_GENERATOR_OPERATING_MASK,
+        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("enable_ramp_generator", uint16_t, SIEMENS_MM4_CONTROL_WORD_ENABLE_RAMP_GENERATOR_MASK,
+        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("enable_setpoint", uint16_t, SIEMENS_MM4_CONTROL_WORD_ENABLE_SETPOINT_MASK,
+        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("acknowledge_fault", uint16_t, SIEMENS_MM4_CONTROL_WORD_ACKNOWLEDGE_FAULT_MASK,
+        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("jog_clockwise", uint16_t, SIEMENS_MM4_CONTROL_WORD_JOG_CLOCKWISE_MASK,
+        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("jog_counter_clockwise", uint16_t, SIEMENS_MM4_CONTROL_WORD_JOG_COUNTER_CLOCKWISE_MASK,
+        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("setpoints_valid", uint16_t, SIEMENS_MM4_CONTROL_WORD_SETPOINTS_VALID_MASK,
+        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("invert_setpoint", uint16_t, SIEMENS_MM4_CONTROL_WORD_INVERT_SETPOINT_MASK,
+        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("free", uint16_t, SIEMENS_MM4_CONTROL_WORD_FREE_MASK, SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("motor_potentiometer_up", uint16_t, SIEMENS_MM4_CONTROL_WORD_MOTOR_POTENTIOMETER_UP_MASK,
+        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("motor_potentiometer_down", uint16_t, SIEMENS_MM4_CONTROL_WORD_MOTOR_POTENTIOMETER_DOWN_MASK,
+        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("local_control", uint16_t, SIEMENS_MM4_CONTROL_WORD_LOCAL_CONTROL_MASK,
+        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK)
 }
 
 static void point_main_setpoint(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_MAIN_SETPOINT, FIELDSCRIBE_SPACE("telegram")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_MAIN_SETPOINT) FIELDSCRIBE_RAWS(SIEMENS_MM4_MAIN_SETPOINT)
-        FIELDSCRIBE_DECIMALS(SIEMENS_MM4_MAIN_SETPOINT) FIELDSCRIBE_CODE("HSW") FIELDSCRIBE_REFERENCE("pzd", 2))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_MAIN_SETPOINT, "telegram", 1U, "HSW", FIELDSCRIBE_COUNTED(SIEMENS_MM4_MAIN_SETPOINT)
+        FIELDSCRIBE_REFERENCE("pzd", 2))
     FIELDSCRIBE_CHECK(siemens_mm4_main_setpoint_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_main_setpoint_encode_count, int64_t, uint16_t,
         FIELDSCRIBE_TOGETHER(with_main_setpoint))
@@ -980,112 +831,79 @@ static void point_main_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_MAIN_SETPOINT, 0U),
         FIELDSCRIBE_TELEGRAM(SIEMENS_MM4_MAIN_SETPOINT))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_main_setpoint_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_SEND(siemens_mm4_main_setpoint_frame, u16, uint16_t)
-    FIELDSCRIBE_PUT(siemens_mm4_main_setpoint_frame, u16, uint16_t, SIEMENS_MM4_MAIN_SETPOINT,
-        SIEMENS_MM4_TELEGRAM_TASK_WORDS)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_main_setpoint_frame)
+    FIELDSCRIBE_SEND(siemens_mm4_main_setpoint_frame, u16)
+    FIELDSCRIBE_PUT(siemens_mm4_main_setpoint_frame, u16, SIEMENS_MM4_MAIN_SETPOINT, SIEMENS_MM4_TELEGRAM_TASK_WORDS)
 }
 
 static void point_second_control_word(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_SECOND_CONTROL_WORD, FIELDSCRIBE_SPACE("telegram")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_SECOND_CONTROL_WORD) FIELDSCRIBE_RAWS(SIEMENS_MM4_SECOND_CONTROL_WORD)
-        FIELDSCRIBE_CODE("STW2") FIELDSCRIBE_REFERENCE("pzd", 4))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_SECOND_CONTROL_WORD, "telegram", 1U, "STW2",
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_SECOND_CONTROL_WORD) FIELDSCRIBE_REFERENCE("pzd", 4))
     FIELDSCRIBE_CHECK(siemens_mm4_second_control_word_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_second_control_word_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_SECOND_CONTROL_WORD, 0U),
         FIELDSCRIBE_TELEGRAM(SIEMENS_MM4_SECOND_CONTROL_WORD))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_second_control_word_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_SEND(siemens_mm4_second_control_word_frame, u16, uint16_t)
-    FIELDSCRIBE_PUT(siemens_mm4_second_control_word_frame, u16, uint16_t, SIEMENS_MM4_SECOND_CONTROL_WORD,
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_second_control_word_frame)
+    FIELDSCRIBE_SEND(siemens_mm4_second_control_word_frame, u16)
+    FIELDSCRIBE_PUT(siemens_mm4_second_control_word_frame, u16, SIEMENS_MM4_SECOND_CONTROL_WORD,
         SIEMENS_MM4_TELEGRAM_TASK_WORDS)
-    FIELDSCRIBE_TRUTH("fixed_frequency_bit_0", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_SECOND_CONTROL_WORD_FIXED_FREQUENCY_BIT_0_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        SIEMENS_MM4_SECOND_CONTROL_WORD_FIXED_FREQUENCY_BIT_0_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("fixed_frequency_bit_1", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_SECOND_CONTROL_WORD_FIXED_FREQUENCY_BIT_1_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        SIEMENS_MM4_SECOND_CONTROL_WORD_FIXED_FREQUENCY_BIT_1_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("fixed_frequency_bit_2", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_SECOND_CONTROL_WORD_FIXED_FREQUENCY_BIT_2_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        SIEMENS_MM4_SECOND_CONTROL_WORD_FIXED_FREQUENCY_BIT_2_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("pid_enable", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_SECOND_CONTROL_WORD_PID_ENABLE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        SIEMENS_MM4_SECOND_CONTROL_WORD_PID_ENABLE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("dc_braking_enable", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_SECOND_CONTROL_WORD_DC_BRAKING_ENABLE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        SIEMENS_MM4_SECOND_CONTROL_WORD_DC_BRAKING_ENABLE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("external_fault", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_SECOND_CONTROL_WORD_EXTERNAL_FAULT_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
-        SIEMENS_MM4_SECOND_CONTROL_WORD_EXTERNAL_FAULT_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("fixed_frequency_bit_0", uint16_t, SIEMENS_MM4_SECOND_CONTROL_WORD_FIXED_FREQUENCY_BIT_0_MASK, 0U)
+    FIELDSCRIBE_TRUTH("fixed_frequency_bit_1", uint16_t, SIEMENS_MM4_SECOND_CONTROL_WORD_FIXED_FREQUENCY_BIT_1_MASK, 0U)
+    FIELDSCRIBE_TRUTH("fixed_frequency_bit_2", uint16_t, SIEMENS_MM4_SECOND_CONTROL_WORD_FIXED_FREQUENCY_BIT_2_MASK, 0U)
+    FIELDSCRIBE_TRUTH("pid_enable", uint16_t, SIEMENS_MM4_SECOND_CONTROL_WORD_PID_ENABLE_MASK, 0U)
+    FIELDSCRIBE_TRUTH("dc_braking_enable", uint16_t, SIEMENS_MM4_SECOND_CONTROL_WORD_DC_BRAKING_ENABLE_MASK, 0U)
+    FIELDSCRIBE_TRUTH("external_fault", uint16_t, SIEMENS_MM4_SECOND_CONTROL_WORD_EXTERNAL_FAULT_MASK, 0U)
 }
 
 static void point_status_word(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_STATUS_WORD, FIELDSCRIBE_SPACE("telegram") FIELDSCRIBE_ONE(SIEMENS_MM4_STATUS_WORD)
-        FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_CODE("ZSW") FIELDSCRIBE_REFERENCE("pzd", 1))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_STATUS_WORD, "telegram", 1U, "ZSW", FIELDSCRIBE_ONLY_READ(0, 65535)
+        FIELDSCRIBE_REFERENCE("pzd", 1))
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_status_word_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_STATUS_WORD, 0U), FIELDSCRIBE_TELEGRAM(SIEMENS_MM4_STATUS_WORD))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_status_word_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_TAKE(siemens_mm4_status_word_frame, u16, uint16_t, SIEMENS_MM4_STATUS_WORD,
-        SIEMENS_MM4_TELEGRAM_ANSWER_WORDS)
-    FIELDSCRIBE_HEAR(siemens_mm4_status_word_frame, u16, uint16_t)
-    FIELDSCRIBE_TRUTH("ready_to_switch_on", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_STATUS_WORD_READY_TO_SWITCH_ON_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_READY_TO_SWITCH_ON_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("ready_to_run", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_STATUS_WORD_READY_TO_RUN_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_READY_TO_RUN_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("operation_enabled", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_STATUS_WORD_OPERATION_ENABLED_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_OPERATION_ENABLED_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("fault", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_STATUS_WORD_FAULT_MASK) != 0U,
-        ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) &
-        SIEMENS_MM4_STATUS_WORD_FAULT_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("off2_pending", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_STATUS_WORD_OFF2_PENDING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_OFF2_PENDING_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("off3_pending", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_STATUS_WORD_OFF3_PENDING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_OFF3_PENDING_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("switch_on_inhibit", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_STATUS_WORD_SWITCH_ON_INHIBIT_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_SWITCH_ON_INHIBIT_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("warning", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_STATUS_WORD_WARNING_MASK) != 0U,
-        ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) &
-        SIEMENS_MM4_STATUS_WORD_WARNING_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("deviation", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_STATUS_WORD_DEVIATION_MASK) !=
-        0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) &
-        SIEMENS_MM4_STATUS_WORD_DEVIATION_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("control_requested", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_STATUS_WORD_CONTROL_REQUESTED_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_CONTROL_REQUESTED_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("frequency_reached", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_STATUS_WORD_FREQUENCY_REACHED_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_FREQUENCY_REACHED_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("current_limit_warning", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_STATUS_WORD_CURRENT_LIMIT_WARNING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_CURRENT_LIMIT_WARNING_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("holding_brake_active", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_STATUS_WORD_HOLDING_BRAKE_ACTIVE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_HOLDING_BRAKE_ACTIVE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("motor_overload", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_STATUS_WORD_MOTOR_OVERLOAD_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_MOTOR_OVERLOAD_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("clockwise", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_STATUS_WORD_CLOCKWISE_MASK) !=
-        0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) &
-        SIEMENS_MM4_STATUS_WORD_CLOCKWISE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("inverter_overload", (((uint16_t)fieldscribe_bits(v, "raw")) &
-        SIEMENS_MM4_STATUS_WORD_INVERTER_OVERLOAD_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
-        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_INVERTER_OVERLOAD_MASK) != 0U)
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_status_word_frame)
+    FIELDSCRIBE_TAKE(siemens_mm4_status_word_frame, u16, SIEMENS_MM4_STATUS_WORD, SIEMENS_MM4_TELEGRAM_ANSWER_WORDS)
+    FIELDSCRIBE_HEAR(siemens_mm4_status_word_frame, u16)
+    FIELDSCRIBE_TRUTH("ready_to_switch_on", uint16_t, SIEMENS_MM4_STATUS_WORD_READY_TO_SWITCH_ON_MASK,
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("ready_to_run", uint16_t, SIEMENS_MM4_STATUS_WORD_READY_TO_RUN_MASK,
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("operation_enabled", uint16_t, SIEMENS_MM4_STATUS_WORD_OPERATION_ENABLED_MASK,
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("fault", uint16_t, SIEMENS_MM4_STATUS_WORD_FAULT_MASK, SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("off2_pending", uint16_t, SIEMENS_MM4_STATUS_WORD_OFF2_PENDING_MASK,
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("off3_pending", uint16_t, SIEMENS_MM4_STATUS_WORD_OFF3_PENDING_MASK,
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("switch_on_inhibit", uint16_t, SIEMENS_MM4_STATUS_WORD_SWITCH_ON_INHIBIT_MASK,
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("warning", uint16_t, SIEMENS_MM4_STATUS_WORD_WARNING_MASK,
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("deviation", uint16_t, SIEMENS_MM4_STATUS_WORD_DEVIATION_MASK,
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("control_requested", uint16_t, SIEMENS_MM4_STATUS_WORD_CONTROL_REQUESTED_MASK,
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("frequency_reached", uint16_t, SIEMENS_MM4_STATUS_WORD_FREQUENCY_REACHED_MASK,
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("current_limit_warning", uint16_t, SIEMENS_MM4_STATUS_WORD_CURRENT_LIMIT_WARNING_MASK,
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("holding_brake_active", uint16_t, SIEMENS_MM4_STATUS_WORD_HOLDING_BRAKE_ACTIVE_MASK,
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("motor_overload", uint16_t, SIEMENS_MM4_STATUS_WORD_MOTOR_OVERLOAD_MASK,
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("clockwise", uint16_t, SIEMENS_MM4_STATUS_WORD_CLOCKWISE_MASK,
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK)
+    FIELDSCRIBE_TRUTH("inverter_overload", uint16_t, SIEMENS_MM4_STATUS_WORD_INVERTER_OVERLOAD_MASK,
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK)
 }
 
 static void point_main_actual_value(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_MAIN_ACTUAL_VALUE, FIELDSCRIBE_SPACE("telegram")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_MAIN_ACTUAL_VALUE) FIELDSCRIBE_ONLY_READ(0, 65535)
-        FIELDSCRIBE_DECIMALS(SIEMENS_MM4_MAIN_ACTUAL_VALUE) FIELDSCRIBE_CODE("HIW") FIELDSCRIBE_REFERENCE("pzd", 2))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_MAIN_ACTUAL_VALUE, "telegram", 1U, "HIW", FIELDSCRIBE_ONLY_READ(0, 65535)
+        FIELDSCRIBE_DECIMALS(SIEMENS_MM4_MAIN_ACTUAL_VALUE) FIELDSCRIBE_REFERENCE("pzd", 2))
     FIELDSCRIBE_TRY_DECODE_COUNT(siemens_mm4_main_actual_value_decode_count, int64_t, uint16_t,
         FIELDSCRIBE_TOGETHER(with_main_actual_value))
     FIELDSCRIBE_TRY_DECODE(siemens_mm4_main_actual_value_decode, double, uint16_t,
@@ -1093,25 +911,24 @@ static void point_main_actual_value(fieldscribe_vector *v)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_MAIN_ACTUAL_VALUE, 0U),
         FIELDSCRIBE_TELEGRAM(SIEMENS_MM4_MAIN_ACTUAL_VALUE))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_main_actual_value_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_TAKE(siemens_mm4_main_actual_value_frame, u16, uint16_t, SIEMENS_MM4_MAIN_ACTUAL_VALUE,
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_main_actual_value_frame)
+    FIELDSCRIBE_TAKE(siemens_mm4_main_actual_value_frame, u16, SIEMENS_MM4_MAIN_ACTUAL_VALUE,
         SIEMENS_MM4_TELEGRAM_ANSWER_WORDS)
-    FIELDSCRIBE_HEAR(siemens_mm4_main_actual_value_frame, u16, uint16_t)
+    FIELDSCRIBE_HEAR(siemens_mm4_main_actual_value_frame, u16)
 }
 
 static void point_second_status_word(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_SECOND_STATUS_WORD, FIELDSCRIBE_SPACE("telegram")
-        FIELDSCRIBE_ONE(SIEMENS_MM4_SECOND_STATUS_WORD) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_CODE("ZSW2")
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_SECOND_STATUS_WORD, "telegram", 1U, "ZSW2", FIELDSCRIBE_ONLY_READ(0, 65535)
         FIELDSCRIBE_REFERENCE("pzd", 4))
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_second_status_word_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_SECOND_STATUS_WORD, 0U),
         FIELDSCRIBE_TELEGRAM(SIEMENS_MM4_SECOND_STATUS_WORD))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_LIES(siemens_mm4_second_status_word_frame, false, 0x0000U, 0x0000U)
-    FIELDSCRIBE_TAKE(siemens_mm4_second_status_word_frame, u16, uint16_t, SIEMENS_MM4_SECOND_STATUS_WORD,
+    FIELDSCRIBE_LIES_ALONE(siemens_mm4_second_status_word_frame)
+    FIELDSCRIBE_TAKE(siemens_mm4_second_status_word_frame, u16, SIEMENS_MM4_SECOND_STATUS_WORD,
         SIEMENS_MM4_TELEGRAM_ANSWER_WORDS)
-    FIELDSCRIBE_HEAR(siemens_mm4_second_status_word_frame, u16, uint16_t)
+    FIELDSCRIBE_HEAR(siemens_mm4_second_status_word_frame, u16)
 }
 
 static const fieldscribe_status_name statuses[] = {

@@ -602,6 +602,9 @@ FIELDSCRIBE_ONCE bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         fieldscribe_is_text(v, "name", function((number_type)fieldscribe_bits(v, "raw")));       \
     }
 
+/* The constants of names that several points share. */
+#define FIELDSCRIBE_NAMES_OF(names) names_of_##names(v);
+
 /* The constant of a name. */
 #define FIELDSCRIBE_NAMED(named, constant)                                                       \
     if (fieldscribe_asks_of(v, "name", "name", named)) {                                         \
@@ -645,19 +648,30 @@ FIELDSCRIBE_ONCE bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         fieldscribe_is_number(v, "raw", (uint64_t)raw);                                          \
     }
 
-#define FIELDSCRIBE_ADDRESS(macro, others)                                                       \
+/* The usual conversions, with no other point: of a number that is its raw number, and of one with counts and values. */
+#define FIELDSCRIBE_PLAIN(point, number_type, raw_type)                                          \
+    FIELDSCRIBE_CHECK(point##_check, raw_type, FIELDSCRIBE_ALONE)                                \
+    FIELDSCRIBE_ENCODE_COUNT(point##_encode, number_type, raw_type, FIELDSCRIBE_ALONE)           \
+    FIELDSCRIBE_DECODE_COUNT(point##_decode, number_type, raw_type, FIELDSCRIBE_ALONE)
+#define FIELDSCRIBE_COUNTS(point, count_type, raw_type, real_type)                               \
+    FIELDSCRIBE_CHECK(point##_check, raw_type, FIELDSCRIBE_ALONE)                                \
+    FIELDSCRIBE_ENCODE_COUNT(point##_encode_count, count_type, raw_type, FIELDSCRIBE_ALONE)      \
+    FIELDSCRIBE_DECODE_COUNT(point##_decode_count, count_type, raw_type, FIELDSCRIBE_ALONE)      \
+    FIELDSCRIBE_ENCODE(point##_encode, real_type, raw_type, FIELDSCRIBE_ALONE)                   \
+    FIELDSCRIBE_DECODE(point##_decode, real_type, raw_type, FIELDSCRIBE_ALONE)
+
+/* A header has space, code and references in comments only: here they are the model's. The code may be NULL. */
+#define FIELDSCRIBE_ADDRESS(macro, space, word_count, code, others)                              \
     if (fieldscribe_asks(v, "address")) {                                                        \
         fieldscribe_is_number(v, "address", macro##_ADDRESS);                                    \
+        fieldscribe_is_text(v, "space", space);                                                  \
+        fieldscribe_is_number(v, "words", word_count);                                           \
+        fieldscribe_is_text(v, "code", code);                                                    \
         others                                                                                   \
         fieldscribe_are_all_pairs(v, "references");                                              \
     }
 
-/* The facts beside an address that the point has. */
-#define FIELDSCRIBE_ONE(macro) fieldscribe_is_number(v, "words", 1U);
-#define FIELDSCRIBE_SEVERAL(macro) fieldscribe_is_number(v, "words", macro##_WORDS);
-/* Facts that a header has in comments only, and are taken from the model. */
-#define FIELDSCRIBE_SPACE(space) fieldscribe_is_text(v, "space", space);
-#define FIELDSCRIBE_CODE(code) fieldscribe_is_text(v, "code", code);
+/* The facts beside an address that not all points have. */
 #define FIELDSCRIBE_REFERENCE(key, number) fieldscribe_is_pair(v, "references", key, (uint64_t)(number));
 #define FIELDSCRIBE_REFERENCE_TEXT(key, text) fieldscribe_is_text_pair(v, "references", key, text);
 #define FIELDSCRIBE_ONLY_READ(low, high)                                                         \
@@ -667,6 +681,10 @@ FIELDSCRIBE_ONCE bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
     fieldscribe_is_number(v, "raw_min", (uint64_t)(macro##_RAW_MIN));                            \
     fieldscribe_is_number(v, "raw_max", (uint64_t)(macro##_RAW_MAX));
 #define FIELDSCRIBE_DECIMALS(macro) fieldscribe_is_number(v, "decimals", (uint64_t)(macro##_DECIMALS));
+#define FIELDSCRIBE_COUNTED(macro)                                                               \
+    fieldscribe_is_number(v, "raw_min", (uint64_t)(macro##_RAW_MIN));                            \
+    fieldscribe_is_number(v, "raw_max", (uint64_t)(macro##_RAW_MAX));                            \
+    fieldscribe_is_number(v, "decimals", (uint64_t)(macro##_DECIMALS));
 
 /* The words of a point in order, and the facts beside them. */
 #define FIELDSCRIBE_INDEX(macro) fieldscribe_is_number(v, "index", (uint64_t)(macro##_INDEX));
@@ -850,18 +868,19 @@ FIELDSCRIBE_ONCE bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
     }
 
 /* A flag of several bits: its number and its place. */
-#define FIELDSCRIBE_WIDE_FLAG(flag, bits, macro)                                                 \
+#define FIELDSCRIBE_WIDE_FLAG(flag, raw_type, function, macro)                                   \
     if (fieldscribe_asks_of(v, "flag", "flag", flag)) {                                          \
         const uint64_t raw = fieldscribe_bits(v, "raw");                                         \
-        fieldscribe_is_number(v, "number", (uint64_t)(bits));                                    \
+        fieldscribe_is_number(v, "number", (uint64_t)function((raw_type)raw));                   \
         fieldscribe_agree(v, (raw & (uint64_t)(macro##_MASK)) == fieldscribe_bits(v, "number") << macro##_SHIFT); \
     }
 
-/* A flag of one bit, and whether it is true. */
-#define FIELDSCRIBE_TRUTH(flag, bits, truth)                                                     \
+/* A flag of one bit, and whether it is true: `low` has the bits that are 0 when they are. */
+#define FIELDSCRIBE_TRUTH(flag, raw_type, mask, low)                                             \
     if (fieldscribe_asks_of(v, "flag", "flag", flag)) {                                          \
-        fieldscribe_is_number(v, "number", (uint64_t)(bits));                                    \
-        fieldscribe_is_number(v, "truth", (truth) ? 1U : 0U);                                    \
+        const raw_type raw = (raw_type)fieldscribe_bits(v, "raw");                               \
+        fieldscribe_is_number(v, "number", (raw & (mask)) != 0U ? 1U : 0U);                      \
+        fieldscribe_is_number(v, "truth", ((raw ^ (low)) & (mask)) != 0U ? 1U : 0U);             \
     }
 
 #define FIELDSCRIBE_FLAG_NAME(flag, value, constant)                                             \
@@ -905,7 +924,7 @@ FIELDSCRIBE_ONCE bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
 
 #define FIELDSCRIBE_DOCUMENTED(point, space, macro, index)                                       \
     if (fieldscribe_asks_of(v, "documented", "name", point)) {                                   \
-        FIELDSCRIBE_SPACE(space)                                                                 \
+        fieldscribe_is_text(v, "space", space);                                                  \
         fieldscribe_is_number(v, "address", macro##_ADDRESS);                                    \
         fieldscribe_is_number(v, "words", macro##_WORDS);                                        \
         index                                                                                    \
@@ -995,6 +1014,13 @@ FIELDSCRIBE_ONCE bool fieldscribe_same_number(uint64_t one, uint64_t other)
 #define FIELDSCRIBE_LIES(frame, shared, mask, bits)                                              \
     v->differs = v->differs || (frame).layout->shares != (shared) || (frame).layout->fixed_mask != (mask) || \
         (frame).layout->fixed_bits != (bits);
+#define FIELDSCRIBE_LIES_ALONE(frame) FIELDSCRIBE_LIES(frame, false, 0U, 0U)
+
+/* The usual exchanges of a number, by the macros of its family. */
+#define FIELDSCRIBE_READ_WRITE(frame, kind)                                                      \
+    FIELDSCRIBE_LIES_ALONE(frame)                                                                \
+    FIELDSCRIBE_READ(frame, kind)                                                                \
+    FIELDSCRIBE_WRITE(frame, kind)
 
 /* The same layout, of another type. */
 FIELDSCRIBE_ONCE fieldscribe_layout fieldscribe_other_type(const fieldscribe_layout *layout)

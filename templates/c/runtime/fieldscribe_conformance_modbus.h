@@ -371,7 +371,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_found(
 #define FIELDSCRIBE_UPDATE_AT_BASE                                                               \
     moved.update = fieldscribe_modbus_writing_at(at_base, &moved.update);
 
-#define FIELDSCRIBE_READ(frame, kind, raw_type)                                                  \
+#define FIELDSCRIBE_READ(frame, kind)                                                            \
     if (fieldscribe_asks(v, "read")) {                                                           \
         uint16_t words[FIELDSCRIBE_ROOM];                                                        \
         const fieldscribe_modbus_request request =                                               \
@@ -400,7 +400,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_found(
         }                                                                                        \
     }
 
-#define FIELDSCRIBE_WRITE(frame, kind, raw_type)                                                 \
+#define FIELDSCRIBE_WRITE(frame, kind)                                                           \
     if (fieldscribe_asks(v, "write")) {                                                          \
         uint16_t words[FIELDSCRIBE_ROOM];                                                        \
         const size_t count = (frame).write.count;                                                \
@@ -430,7 +430,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_found(
     }
 
 /* A group of bits: its word is read, and written back with other bits. */
-#define FIELDSCRIBE_UPDATE(frame, kind, raw_type)                                                \
+#define FIELDSCRIBE_UPDATE(frame, kind)                                                          \
     if (fieldscribe_asks(v, "write")) {                                                          \
         uint16_t words[FIELDSCRIBE_ROOM];                                                        \
         const uint8_t unit = (uint8_t)fieldscribe_bits(v, "unit");                               \

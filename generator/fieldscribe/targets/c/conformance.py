@@ -3,7 +3,7 @@
 from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from fieldscribe.families import family
-from fieldscribe.model import Device, Point
+from fieldscribe.model import Device, Enum, Point
 from fieldscribe.resources import Render
 from fieldscribe.targets.c.calls import call_cases
 from fieldscribe.targets.c.conversions import value_type
@@ -28,15 +28,17 @@ _STATUSES = (
 def suite_context(device: Device, points: Sequence[GeneratedPoint], scope: HeaderScope) -> dict[str, object]:
     """Return the context of `<device>_conformance.c`.
 
-    `points` are those with code, each with a function that answers vectors. `names` are the kinds of codes for which a
-    function gives the name. `documented` are points that are reached raw only: item, space, the prefix of their macros,
-    and whether they have an index.
+    `points` are those with code, each with a function that answers vectors. `enums` are those that points share, with
+    the macros for their constants. `names` are the kinds of codes for which a function gives the name. `documented` are
+    points that are reached raw only: item, space, the prefix of their macros, and whether they have an index.
     """
     prefix, capitals, named = scope.prefix, scope.upper, frames_of(device).named_codes
+    enums = {enum.name: enum for point, _, _ in points if (enum := point.named_numbers) and enum.name != point.item}
     emitted = [codes for codes in family(device.family).codes if codes.emitted and device.bus.codes(codes.section)]
     return {
         "family": device.family,
         "structs": [struct for point, _, _ in points if point.arguments for struct in _structs_of(point, scope)],
+        "enums": [(name, _named(enum, f"{capitals}_{upper(name)}")) for name, enum in enums.items()],
         "points": [each.point.item for each in points],
         "statuses": [(f"FIELDSCRIBE_{status}", status.lower()) for status in _STATUSES],
         "groups": [(group, f"{prefix}_{group}_blocks") for group, blocks in device.blocks.items() if blocks],
@@ -91,16 +93,13 @@ def _cases(view: PointView, scope: HeaderScope) -> Iterator[str]:
     """Yield the macros for the point as a whole."""
     point, function, kind = view.point, view.function, view.raw_type
     if point.address is not None:
-        yield f"ADDRESS({view.macro}, {_address_answers(view)})"
-    if point.writable and view.shape != "text":
-        yield f"CHECK({function}_check, {kind}, {_arguments_of(point, point.limit_arguments, scope)})"
+        yield _address_case(view)
     yield from _TEXTS[view.shape](view) if view.shape in _TEXTS else _conversion_cases(view, scope)
     enum = point.named_numbers
     if enum is not None:
         name, macro = names_of(enum, point, view.fields)
         yield f"NAME({scope.prefix}_{name}_name, {value_type(point)})"
-        first = {entry.raw: entry.name for entry in reversed(enum.entries)}
-        yield from (f'NAMED("{name}", {scope.upper}_{macro}_{upper(name)})' for name in first.values())
+        yield from [f"NAMES_OF({name})"] if enum.name != point.item else _named(enum, f"{scope.upper}_{macro}")
     yield from _place_cases(view)
     if point.bits is not None:
         order, plain = "fieldscribe_exchanged" if point.swapped else "(uint16_t)", "false" if point.coding else "true"
@@ -112,50 +111,78 @@ def _cases(view: PointView, scope: HeaderScope) -> Iterator[str]:
         yield f"ONE_WORD({kind})"
 
 
-def _address_answers(view: PointView) -> str:
-    """Return the answers with the facts beside the address: space, limits, decimals, code, references."""
-    point, fields = view.point, view.fields
-    calls = [
-        f'SPACE("{point.space}")',
-        f"{'SEVERAL' if point.words > 1 or point.text is not None else 'ONE'}({view.macro})",
-    ]
+def _named(enum: Enum, macro: str) -> Iterator[str]:
+    """Yield the macros for the constants of an enum; of several names of a number only the first has one."""
+    first = {entry.raw: entry.name for entry in reversed(enum.entries)}
+    return (f'NAMED("{name}", {macro}_{upper(name)})' for name in first.values())
+
+
+def _address_case(view: PointView) -> str:
+    """Return the macro with the address and the facts beside it: space, words, code, limits, decimals, references."""
+    point, fields, macro = view.point, view.fields, view.macro
+    words = f"{macro}_WORDS" if point.words > 1 or point.text is not None else "1U"
+    others = []
     if view.shape not in ("float", "text", "digits"):
         only_read = f"ONLY_READ({fields.low_signed}, {fields.high_signed})"
-        calls.append(f"RAWS({view.macro})" if point.writable else only_read)
-    if view.is_counted:
-        calls.append(f"DECIMALS({view.macro})")
-    if point.code is not None:
-        calls.append(f"CODE({fields.code})")
+        others.append(f"{'COUNTED' if view.is_counted else 'RAWS'}({macro})" if point.writable else only_read)
+    if view.is_counted and not point.writable:
+        others.append(f"DECIMALS({macro})")
     for (key, number), literal in zip(point.references.items(), fields.references, strict=True):
-        calls.append(f'REFERENCE{"_TEXT" if isinstance(number, str) else ""}("{key}", {literal})')
-    return " ".join(f"FIELDSCRIBE_{call}" for call in calls)
+        others.append(f'REFERENCE{"_TEXT" if isinstance(number, str) else ""}("{key}", {literal})')
+    beside = " ".join(f"FIELDSCRIBE_{other}" for other in others)
+    return f'ADDRESS({macro}, "{point.space}", {words}, {fields.code or "NULL"}, {beside})'
 
 
 def _conversion_cases(view: PointView, scope: HeaderScope) -> Iterator[str]:
-    """Yield the macros for the conversions of a point that is a number."""
-    point, function, kind, scale = view.point, view.function, view.raw_type, view.scale
-    everything = _arguments_of(point, point.arguments, scope)
-    factors = _arguments_of(point, point.scale_arguments, scope)
+    """Yield the macros for the conversions of a point that is a number: one for the usual ones, else one for each."""
+    point, scale = view.point, view.scale
     attempt = "TRY_" if view.special is not None or view.shape == "ruled" else ""
-    if view.shape == "plain" or view.is_counted:
-        counted = "" if view.shape == "plain" else "_count"
-        number = "int64_t" if scale is None else scale.count_type
-        if view.shape == "plain":
-            number = "int32_t" if kind == "bool" and not attempt else value_type(point)
-        if point.writable:
-            yield f"ENCODE_COUNT({function}_encode{counted}, {number}, {kind}, {everything})"
-        if point.readable:
-            tried = "TRY_" if scale is not None and scale.count_fits else attempt
-            yield f"{tried}DECODE_COUNT({function}_decode{counted}, {number}, {kind}, {factors})"
-    if view.shape == "float" and point.type == "f32" and point.has_counts:
-        yield from [f"F32_ENCODE_COUNT({function}_encode_count)"] * point.writable
-        yield from [f"F32_DECODE_COUNT({function}_decode_count)"] * point.readable
-    if view.shape != "plain":
-        real = "double" if view.computes_in_double else "fieldscribe_real"
-        if point.writable and point.encodes_values:
-            yield f"ENCODE({function}_encode, {real}, {kind}, {everything})"
-        if point.readable:
-            yield f"{attempt}DECODE({function}_decode, {real}, {kind}, {factors})"
+    tried = "TRY_" if scale is not None and scale.count_fits else attempt
+    number = "int64_t" if scale is None else scale.count_type
+    if view.shape == "plain":
+        number = "int32_t" if view.raw_type == "bool" and not attempt else value_type(point)
+    real = "double" if view.computes_in_double else "fieldscribe_real"
+    usual = point.writable and point.readable and not (tried or point.arguments)
+    if usual and view.shape == "plain":
+        yield f"PLAIN({view.function}, {number}, {view.raw_type})"
+    elif usual and view.is_counted and point.encodes_values:
+        yield f"COUNTS({view.function}, {number}, {view.raw_type}, {real})"
+    else:
+        yield from _encode_cases(view, number, real, scope) if point.writable else ()
+        yield from _decode_cases(view, (tried, attempt), number, real, scope) if point.readable else ()
+
+
+def _encode_cases(view: PointView, number: str, real: str, scope: HeaderScope) -> Iterator[str]:
+    """Yield the macros for the check of a number, and its conversions from a count and from a value."""
+    point, function, kind = view.point, view.function, view.raw_type
+    arguments = _arguments_of(point, point.arguments, scope)
+    yield f"CHECK({function}_check, {kind}, {_arguments_of(point, point.limit_arguments, scope)})"
+    if view.shape == "plain":
+        yield f"ENCODE_COUNT({function}_encode, {number}, {kind}, {arguments})"
+        return
+    if view.is_counted:
+        yield f"ENCODE_COUNT({function}_encode_count, {number}, {kind}, {arguments})"
+    elif point.type == "f32" and point.has_counts:
+        yield f"F32_ENCODE_COUNT({function}_encode_count)"
+    if point.encodes_values:
+        yield f"ENCODE({function}_encode, {real}, {kind}, {arguments})"
+
+
+def _decode_cases(
+    view: PointView, attempts: tuple[str, str], number: str, real: str, scope: HeaderScope
+) -> Iterator[str]:
+    """Yield the macros for the conversions to a count and to a value; `attempts` mark those that may fail."""
+    point, function, kind = view.point, view.function, view.raw_type
+    of_count, of_value = attempts
+    factors = _arguments_of(point, point.scale_arguments, scope)
+    if view.shape == "plain":
+        yield f"{of_count}DECODE_COUNT({function}_decode, {number}, {kind}, {factors})"
+        return
+    if view.is_counted:
+        yield f"{of_count}DECODE_COUNT({function}_decode_count, {number}, {kind}, {factors})"
+    elif point.type == "f32" and point.has_counts:
+        yield f"F32_DECODE_COUNT({function}_decode_count)"
+    yield f"{of_value}DECODE({function}_decode, {real}, {kind}, {factors})"
 
 
 def _text_cases(view: PointView) -> Iterator[str]:
@@ -172,6 +199,7 @@ def _digits_cases(view: PointView) -> Iterator[str]:
     if view.point.readable:
         yield f"{'TRY_' if view.special is not None else ''}DIGITS({view.function}, uint16_t, {view.macro})"
     if view.point.writable:
+        yield f"CHECK({view.function}_check, {view.raw_type}, FIELDSCRIBE_ALONE)"
         yield f"DIGITS_ENCODE({view.function}, uint16_t, {view.macro})"
 
 
@@ -199,17 +227,15 @@ def _place_cases(view: PointView) -> Iterator[str]:
 
 def _flag_cases(view: PointView, scope: HeaderScope) -> Iterator[str]:
     """Yield the macros for flags, and for the named numbers of flags of several bits."""
-    point, macro = view.point, view.macro
-    raw = f'({view.raw_type})fieldscribe_bits(v, "raw")'
-    low = any(flag.width == 1 and not flag.active for flag in point.flags)
-    turned = f" ^ {macro}_ACTIVE_LOW_MASK" if low else ""
+    point, macro, kind = view.point, view.macro, view.raw_type
+    has_low = any(flag.width == 1 and not flag.active for flag in point.flags)
+    low = f"{macro}_ACTIVE_LOW_MASK" if has_low else "0U"
     for flag in point.flags:
         name = f"{macro}_{upper(flag.name)}"
         if flag.width == 1:
-            truth = f"((({raw}){turned}) & {name}_MASK) != 0U"  # by the macros that users of the header have
-            yield f'TRUTH("{flag.name}", (({raw}) & {name}_MASK) != 0U, {truth})'
+            yield f'TRUTH("{flag.name}", {kind}, {name}_MASK, {low})'
             continue
-        yield f'WIDE_FLAG("{flag.name}", {view.function}_{flag.name}({raw}), {name})'
+        yield f'WIDE_FLAG("{flag.name}", {kind}, {view.function}_{flag.name}, {name})'
         for entry in flag.values:
             shared = f"{scope.upper}_{upper(flag.enum)}" if flag.enum else macro if shares_values(point) else name
             constant = f"{shared}_{upper(entry.name)}"

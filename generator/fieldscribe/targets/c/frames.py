@@ -180,9 +180,19 @@ def frames_of(device: Device) -> CFamily:
     return offered
 
 
-def lies(point: Point) -> str:
-    """Return the facts of a layout that conformance checks: whether the word is shared, and its constant bits."""
-    return f"{'false' if point.bits is None else 'true'}, {constant_bits(point)}"
+def lies(point: Point, frame: str) -> str:
+    """Return the macro that checks a frame's layout: whether the word is shared, and its constant bits."""
+    if point.bits is None and point.fixed is None:
+        return f"LIES_ALONE({frame})"
+    return f"LIES({frame}, {'false' if point.bits is None else 'true'}, {constant_bits(point)})"
+
+
+def exchanges(view: PointView, frame: str, ways: Sequence[str]) -> tuple[str, ...]:
+    """Return the macros for the layout of a number and the ways in which its frame exchanges it."""
+    where, what = lies(view.point, frame), f"{frame}, {kind_of(view)}"
+    if where.startswith("LIES_ALONE") and list(ways) == ["READ", "WRITE"]:
+        return (f"READ_WRITE({what})",)
+    return where, *(f"{way}({what})" for way in ways)
 
 
 def kind_of(view: PointView) -> str:

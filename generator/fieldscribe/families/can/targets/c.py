@@ -261,34 +261,31 @@ def _parameter(point: Point, view: PointView, layouts: frames.Layouts, arrays: S
     place = f"{{{view.function}_addresses, {point.words}U}}" if text else f"{{{view.fields.start}}}"
     parts = [*([] if text else [layouts.of(point, (0,))]), *[place] * (read + write)]
     ways = f"{'r' if read else ''}{('w' if point.bits is None else 'u') if write else ''}"
-    name = f"{view.function}_frame"
-    what = f"{name}, " + (f"{view.function}, {view.macro}" if text else f"{frames.kind_of(view)}, {view.raw_type}")
-    cases = []
-    if read and read_answer:
-        cases.append(f"READ{'_TEXT' if text else ''}({what})")
+    cases = ["READ"] if read and read_answer else []
     if write and write_answer and (cases or point.bits is None):
-        cases.append(f"WRITE{'_TEXT' if text else '' if point.bits is None else '_SHARED'}({what})")
+        cases.append("WRITE" if point.bits is None else "WRITE_SHARED")
     return _frame(point, view, ways, parts, cases)
 
 
 def _cyclic(point: Point, view: PointView, layouts: frames.Layouts) -> frames.Frame:
     """Return the place of a point in its telegram."""
-    name = f"{view.function}_frame"
     if point.text is not None:
-        parts, case = [f"{{{view.function}_addresses, {point.words}U}}"], f"RECEIVED_TEXT({name}, {view.macro})"
+        parts = [f"{{{view.function}_addresses, {point.words}U}}"]
     else:
         parts = [layouts.of(point, range(point.words)), f"{{{view.fields.start}, {view.fields.end}}}"]
-        what = "RECEIVED" if point.place.bit is None else "SIGNAL"
-        case = f"{what}({name}, {frames.kind_of(view)}, {view.raw_type})"
-    return _frame(point, view, "h", parts, [case])
+    return _frame(point, view, "h", parts, ["RECEIVED" if point.place.bit is None else "SIGNAL"])
 
 
-def _frame(point: Point, view: PointView, ways: str, parts: list[str], cases: Iterable[str]) -> frames.Frame:
-    """Return the frames of a point; the letters are r (read), w (write), u (update) and h (receive)."""
+def _frame(point: Point, view: PointView, ways: str, parts: list[str], cases: Sequence[str]) -> frames.Frame:
+    """Return the frames of a point; the letters are r (read), w (write), u (update) and h (receive).
+
+    `cases` are the macros of the conformance program for them.
+    """
     name, text = f"{view.function}_frame", point.text is not None
     kind = f"fieldscribe_can_{'text_' if text else ''}{ways}"
-    layout_cases = [] if text else [f"LIES({name}, {frames.lies(point)})"]
-    return frames.Frame((frames.Descriptor(kind, name, f"{{{', '.join(parts)}}}", "_frame"),), (*layout_cases, *cases))
+    of_text = tuple(f"{case}_TEXT({view.function}, {view.macro})" for case in cases)
+    answers = of_text if text else frames.exchanges(view, name, cases)
+    return frames.Frame((frames.Descriptor(kind, name, f"{{{', '.join(parts)}}}", "_frame"),), answers)
 
 
 IN_C = frames.CFamily(header)

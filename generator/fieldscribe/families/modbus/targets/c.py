@@ -332,14 +332,10 @@ def _cases(point: Point, view: PointView, access: str, selected: str) -> Iterato
         yield f"SELECTED({selected})"
     if point.base:
         yield f'AT_BASE(fieldscribe_modbus_{"text_" if text else ""}{access}, {name}, "{point.base}")'
-        yield from (f"{word}_AT_BASE" for letter, word in _MOVED.items() if letter in access)
+        yield from (f"{_MOVED[letter]}_AT_BASE" for letter in access)
         name = "moved"
-    what = f"{name}, {point.words}U" if text else f"{name}, {frames.kind_of(view)}, {view.raw_type}"
-    if not text:
-        yield f"LIES({name}, {frames.lies(point)})"
-    for letter, way in (("r", "READ"), ("w", "WRITE"), ("u", "UPDATE")):
-        if letter in access:
-            yield f"{way}{'_TEXT' if text else ''}({what})"
+    ways = [_MOVED[letter] for letter in access]
+    yield from [f"{way}_TEXT({name}, {point.words}U)" for way in ways] if text else frames.exchanges(view, name, ways)
 
 
 def _blocks(

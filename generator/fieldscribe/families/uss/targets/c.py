@@ -94,8 +94,8 @@ def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: frames
     ways = [*((task, "r") for task in reading), *((task, changes) for task in writing)]
     descriptors = [descriptor("_frame", ways)] if ways else []
     descriptors += [descriptor("_eeprom_frame", [(task, changes) for task in storing])] if storing else []
-    cases = [f"LIES({descriptor.name}, {frames.lies(point)})" for descriptor in descriptors]
-    name, what = f"{view.function}_frame", f"{frames.kind_of(view)}, {view.raw_type}"
+    cases = [frames.lies(point, descriptor.name) for descriptor in descriptors]
+    name, what = f"{view.function}_frame", frames.kind_of(view)
     if reading:
         cases.append(f"READ({name}, {what})")
     for kind, tail in [*(("write", "_frame") for _ in writing), *(("store", "_eeprom_frame") for _ in storing)]:
@@ -111,12 +111,12 @@ def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: frames
 
 def _word(point: Point, view: PointView, layouts: frames.Layouts, scope: HeaderScope) -> frames.Frame:
     """Return the place of a point in the words of process data."""
-    name, what = f"{view.function}_frame", f"{frames.kind_of(view)}, {view.raw_type}"
+    name, what = f"{view.function}_frame", frames.kind_of(view)
     position = f"{{{view.fields.number}U, {point.words}U}}"
     ways = f"{'h' if point.readable else ''}{'s' if point.writable else ''}"
     value = f"{{{', '.join((layouts.of(point, places_of(point)), *[position] * len(ways)))}}}"
     words = f"{view.macro}, {scope.upper}_TELEGRAM_{upper(point.telegram or '')}_WORDS"
-    cases = [f"LIES({name}, {frames.lies(point)})"]
+    cases = [frames.lies(point, name)]
     if point.writable:
         cases += [f"SEND({name}, {what})", f"PUT({name}, {what}, {words})"]
     if point.readable:
