@@ -85,6 +85,7 @@ def _environment() -> Environment:
         lstrip_blocks=True,
         keep_trailing_newline=True,
         auto_reload=False,
+        optimized=False,  # templates have no constant expressions to work out
         autoescape=False,  # noqa: S701 - no HTML: views hold finished text, encoded by text.py
     )
 

@@ -2744,8 +2744,8 @@ static void point_digital_inputs_1_to_4_logic(fieldscribe_vector *v)
 static void point_digital_inputs_1_to_4_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_DELAY, "parameter", 1U, NULL, )
-    FIELDSCRIBE_DIGITS(woodward_mpu2s_digital_inputs_1_to_4_delay, uint16_t, WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_DELAY)
     FIELDSCRIBE_CHECK(woodward_mpu2s_digital_inputs_1_to_4_delay_check, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_DIGITS(woodward_mpu2s_digital_inputs_1_to_4_delay, uint16_t, WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_DELAY)
     FIELDSCRIBE_DIGITS_ENCODE(woodward_mpu2s_digital_inputs_1_to_4_delay, uint16_t,
         WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_DELAY)
     FIELDSCRIBE_NAME(woodward_mpu2s_input_delay_name, int32_t)
@@ -2773,9 +2773,9 @@ static void point_digital_inputs_1_to_4_engine_delay(fieldscribe_vector *v)
 static void point_digital_inputs_1_to_4_fault_class(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_FAULT_CLASS, "parameter", 1U, NULL, )
+    FIELDSCRIBE_CHECK(woodward_mpu2s_digital_inputs_1_to_4_fault_class_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DIGITS(woodward_mpu2s_digital_inputs_1_to_4_fault_class, uint16_t,
         WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_FAULT_CLASS)
-    FIELDSCRIBE_CHECK(woodward_mpu2s_digital_inputs_1_to_4_fault_class_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DIGITS_ENCODE(woodward_mpu2s_digital_inputs_1_to_4_fault_class, uint16_t,
         WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_FAULT_CLASS)
     FIELDSCRIBE_NAME(woodward_mpu2s_fault_class_name, int32_t)
@@ -2802,8 +2802,8 @@ static void point_digital_inputs_5_to_8_logic(fieldscribe_vector *v)
 static void point_digital_inputs_5_to_8_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_DELAY, "parameter", 1U, NULL, )
-    FIELDSCRIBE_DIGITS(woodward_mpu2s_digital_inputs_5_to_8_delay, uint16_t, WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_DELAY)
     FIELDSCRIBE_CHECK(woodward_mpu2s_digital_inputs_5_to_8_delay_check, uint16_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_DIGITS(woodward_mpu2s_digital_inputs_5_to_8_delay, uint16_t, WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_DELAY)
     FIELDSCRIBE_DIGITS_ENCODE(woodward_mpu2s_digital_inputs_5_to_8_delay, uint16_t,
         WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_DELAY)
     FIELDSCRIBE_NAME(woodward_mpu2s_input_delay_name, int32_t)
@@ -2831,9 +2831,9 @@ static void point_digital_inputs_5_to_8_engine_delay(fieldscribe_vector *v)
 static void point_digital_inputs_5_to_8_fault_class(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_FAULT_CLASS, "parameter", 1U, NULL, )
+    FIELDSCRIBE_CHECK(woodward_mpu2s_digital_inputs_5_to_8_fault_class_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DIGITS(woodward_mpu2s_digital_inputs_5_to_8_fault_class, uint16_t,
         WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_FAULT_CLASS)
-    FIELDSCRIBE_CHECK(woodward_mpu2s_digital_inputs_5_to_8_fault_class_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DIGITS_ENCODE(woodward_mpu2s_digital_inputs_5_to_8_fault_class, uint16_t,
         WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_FAULT_CLASS)
     FIELDSCRIBE_NAME(woodward_mpu2s_fault_class_name, int32_t)
@@ -2860,9 +2860,9 @@ static void point_digital_inputs_9_to_12_logic(fieldscribe_vector *v)
 static void point_digital_inputs_9_to_12_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_DELAY, "parameter", 1U, NULL, )
+    FIELDSCRIBE_CHECK(woodward_mpu2s_digital_inputs_9_to_12_delay_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DIGITS(woodward_mpu2s_digital_inputs_9_to_12_delay, uint16_t,
         WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_DELAY)
-    FIELDSCRIBE_CHECK(woodward_mpu2s_digital_inputs_9_to_12_delay_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DIGITS_ENCODE(woodward_mpu2s_digital_inputs_9_to_12_delay, uint16_t,
         WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_DELAY)
     FIELDSCRIBE_NAME(woodward_mpu2s_input_delay_name, int32_t)
@@ -2890,9 +2890,9 @@ static void point_digital_inputs_9_to_12_engine_delay(fieldscribe_vector *v)
 static void point_digital_inputs_9_to_12_fault_class(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_FAULT_CLASS, "parameter", 1U, NULL, )
+    FIELDSCRIBE_CHECK(woodward_mpu2s_digital_inputs_9_to_12_fault_class_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DIGITS(woodward_mpu2s_digital_inputs_9_to_12_fault_class, uint16_t,
         WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_FAULT_CLASS)
-    FIELDSCRIBE_CHECK(woodward_mpu2s_digital_inputs_9_to_12_fault_class_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DIGITS_ENCODE(woodward_mpu2s_digital_inputs_9_to_12_fault_class, uint16_t,
         WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_FAULT_CLASS)
     FIELDSCRIBE_NAME(woodward_mpu2s_fault_class_name, int32_t)

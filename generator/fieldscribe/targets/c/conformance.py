@@ -94,6 +94,8 @@ def _cases(view: PointView, scope: HeaderScope) -> Iterator[str]:
     point, function, kind = view.point, view.function, view.raw_type
     if point.address is not None:
         yield _address_case(view)
+    if view.shape == "digits" and point.writable:
+        yield _check_case(view, scope)
     yield from _TEXTS[view.shape](view) if view.shape in _TEXTS else _conversion_cases(view, scope)
     enum = point.named_numbers
     if enum is not None:
@@ -152,11 +154,16 @@ def _conversion_cases(view: PointView, scope: HeaderScope) -> Iterator[str]:
         yield from _decode_cases(view, (tried, attempt), number, real, scope) if point.readable else ()
 
 
+def _check_case(view: PointView, scope: HeaderScope) -> str:
+    limits = _arguments_of(view.point, view.point.limit_arguments, scope)
+    return f"CHECK({view.function}_check, {view.raw_type}, {limits})"
+
+
 def _encode_cases(view: PointView, number: str, real: str, scope: HeaderScope) -> Iterator[str]:
     """Yield the macros for the check of a number, and its conversions from a count and from a value."""
     point, function, kind = view.point, view.function, view.raw_type
     arguments = _arguments_of(point, point.arguments, scope)
-    yield f"CHECK({function}_check, {kind}, {_arguments_of(point, point.limit_arguments, scope)})"
+    yield _check_case(view, scope)
     if view.shape == "plain":
         yield f"ENCODE_COUNT({function}_encode, {number}, {kind}, {arguments})"
         return
@@ -199,7 +206,6 @@ def _digits_cases(view: PointView) -> Iterator[str]:
     if view.point.readable:
         yield f"{'TRY_' if view.special is not None else ''}DIGITS({view.function}, uint16_t, {view.macro})"
     if view.point.writable:
-        yield f"CHECK({view.function}_check, {view.raw_type}, FIELDSCRIBE_ALONE)"
         yield f"DIGITS_ENCODE({view.function}, uint16_t, {view.macro})"
 
 
