@@ -17,7 +17,7 @@ from fieldscribe.lowered import TemplateKeys
 from fieldscribe.model import Device, Enum, Erratum, Limit, Place, Point, Special, Variant
 from fieldscribe.resources import render
 from fieldscribe.targets import c, python, rust, typescript
-from fieldscribe.targets.c import point_templates
+from fieldscribe.targets.c import point_views
 from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplate, TextTemplates, placeholders
 from fieldscribe.targets.python import views as python_views
 from fieldscribe.targets.rust import conformance, point_macros
@@ -80,7 +80,7 @@ def test_other_rare_signs_of_a_text_are_no_placeholders() -> None:
 
 
 LANGUAGES = (c, python, rust, typescript)
-FILLED = (point_templates, python_views, conformance, point_macros, rust_enums, typescript_views)
+FILLED = (point_views, python_views, conformance, point_macros, rust_enums, typescript_views)
 """The modules that fill templates."""
 
 QUICK = ("kitchen_sink", "kitchen_uss", "kitchen_can")

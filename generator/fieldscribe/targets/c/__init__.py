@@ -10,7 +10,7 @@ from typing import Literal
 
 from fieldscribe.model import Device, Point
 from fieldscribe.resources import Render
-from fieldscribe.targets.c.declarations import flag_defines
+from fieldscribe.targets.c.declarations import FUNCTIONS, flag_defines, special_defines
 from fieldscribe.targets.c.frames import frames_of, old_names_of
 from fieldscribe.targets.c.header import (
     aliases_of,
@@ -24,10 +24,8 @@ from fieldscribe.targets.c.header import (
 )
 from fieldscribe.targets.c.layout import framed
 from fieldscribe.targets.c.limits import ranges_table
-from fieldscribe.targets.c.point_templates import GeneratedPoint, fields_of, generated_points
-from fieldscribe.targets.c.point_views import names_of, symbols_of
+from fieldscribe.targets.c.point_views import GeneratedPoint, fields_of, generated_points, names_of, symbols_of
 from fieldscribe.targets.c.scope import HeaderScope, scope_of
-from fieldscribe.targets.c.special_codes import FUNCTIONS, special_defines
 from fieldscribe.targets.c.views import PointView
 from fieldscribe.targets.identifiers import Named, Names, Owner
 from fieldscribe.text import upper

@@ -14,7 +14,7 @@ from fieldscribe.lowered import plan_of
 from fieldscribe.model import Point
 from fieldscribe.targets.c.conversions import is_rechecked
 from fieldscribe.targets.c.layout import wrapped
-from fieldscribe.targets.c.point_templates import GeneratedPoint
+from fieldscribe.targets.c.point_views import GeneratedPoint
 from fieldscribe.targets.c.scope import HeaderScope, raw_type
 from fieldscribe.targets.c.views import PointView
 from fieldscribe.targets.c.word_functions import has_words

@@ -15,7 +15,7 @@ from fieldscribe.model.device import WHOLE_WORD
 from fieldscribe.targets.c.calls import raw_of_words
 from fieldscribe.targets.c.header import identification_defines
 from fieldscribe.targets.c.layout import INLINE, function
-from fieldscribe.targets.c.point_templates import GeneratedPoint
+from fieldscribe.targets.c.point_views import GeneratedPoint
 from fieldscribe.targets.c.scope import HeaderScope, hexadecimal, unsigned
 from fieldscribe.targets.c.views import PointView
 from fieldscribe.targets.identifiers import Named, Owner

@@ -8,7 +8,7 @@ from fieldscribe.families.uss.telegrams import READ_ELEMENT_TASK, READ_TASK, wri
 from fieldscribe.model import Code, Device, Point
 from fieldscribe.targets.c import frames
 from fieldscribe.targets.c.calls import Transfer
-from fieldscribe.targets.c.point_templates import GeneratedPoint
+from fieldscribe.targets.c.point_views import GeneratedPoint
 from fieldscribe.targets.c.scope import HeaderScope, hexadecimal
 from fieldscribe.targets.c.views import PointView
 from fieldscribe.targets.c.word_functions import places_of
