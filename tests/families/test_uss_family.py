@@ -9,6 +9,7 @@ import pytest
 from fieldscribe.families.uss import UssBus, of_bus
 from fieldscribe.families.uss.telegrams import (
     Link,
+    Part,
     Request,
     broadcast,
     build,
@@ -16,6 +17,7 @@ from fieldscribe.families.uss.telegrams import (
     default_link,
     parameter_words,
     parse,
+    part_of,
     telegram,
 )
 from fieldscribe.model import Bus, Code
@@ -112,6 +114,9 @@ def test_a_whole_telegram_by_hand() -> None:
 )
 def test_the_page_bits_stand_in_their_odd_order(parameter: int, index: int, expected: tuple[int, int]) -> None:
     assert parameter_words(0, parameter, index) == expected
+    for report in (0, 0x0800):  # a drive's report of a change says so in bit 11
+        words = expected[0] | report, expected[1], 7
+        assert part_of(words) == Part(expected[0] >> 12, parameter, index, (7,), bool(report))
 
 
 @pytest.mark.parametrize(
