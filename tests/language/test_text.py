@@ -48,6 +48,10 @@ def test_no_result_holds_control_or_format_characters(encode: Callable[[str], st
         assert result.encode("utf-8").decode("utf-8") == result, ascii(hostile)
 
 
+def test_a_text_in_ascii_has_umlauts_as_two_letters() -> None:
+    assert text.ascii_text("Größe Übung café Ω") == "Groesse Uebung cafe "
+
+
 def test_a_line_keeps_what_people_can_read() -> None:
     assert text.line("  Größe\r\n in °C\t(µ)  ") == "Größe in °C (µ)"
     assert text.line("a\u202eb\x00c") == "abc"
