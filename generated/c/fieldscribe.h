@@ -500,46 +500,50 @@ static inline uint32_t fieldscribe_quotient_bits(uint64_t *rest, uint64_t diviso
 }
 
 /*
- * fieldscribe_twice_ratio of the leading bits of number / divisor, which is above 0, in 32 bits; false, with nothing
- * stored, where the other bits may change the result.
+ * 2 * number / (divisor * fives) * 2^shift, rounded down, in 32 bits; false, with nothing stored, if these may be too
+ * few. The lowest bits of a long product of divisors do not take part in the division: they may make the quotient one
+ * less. Nor do those of a long number, which are not to matter.
  */
 static inline bool fieldscribe_narrow_ratio(
-    uint64_t number, uint64_t divisor, int32_t shift, uint64_t *twice, bool *left_over)
+    uint64_t number, uint64_t divisor, uint64_t fives, int32_t shift, uint64_t *twice, bool *left_over)
 {
     uint64_t leading = number;
-    uint64_t under = divisor;
     uint32_t lost = 0U;
-    uint32_t quotient = 1U; /* ahead of its bits; at `end` all of them are there */
     uint32_t rest;
     uint32_t over;
+    uint32_t lowest;
     uint32_t end;
-    uint32_t up = 0U;
-    uint32_t down = 0U;
-    int32_t bits;
-    if (number == 0U) {
+    uint32_t quotient = 1U; /* ahead of its bits; at `end` all of them are there */
+    uint32_t apart = 16U;   /* the size of `lowest` */
+    int32_t bits = shift + 1;
+    if ((divisor > 0x7FFFFFFFU) || (fives > 0xFFFFU)) {
         return false;
-    }
-    for (; under > 0x7FFFFFFFU; under >>= 4) {
-        lost |= (uint32_t)(under & 0xFU);
-        down += 4U;
     }
     for (; leading > 0x3FFFFFFFU; leading >>= 4) {
         lost |= (uint32_t)(leading & 0xFU);
-        up += 4U;
+        bits += 4;
     }
     rest = (uint32_t)leading;
-    over = (uint32_t)under;
+    lowest = ((uint32_t)divisor & 0xFFFFU) * (uint32_t)fives;
+    over = (((uint32_t)divisor >> 16) * (uint32_t)fives) + (lowest >> 16);
+    lowest &= 0xFFFFU;
+    while ((over <= 0x7FFFFFU) && (apart > 0U)) {
+        apart -= 8U;
+        over = (over << 8) | (lowest >> apart);
+        lowest &= 0xFFU * (apart / 8U);
+    }
+    bits -= (int32_t)apart;
     for (; over <= rest; over <<= 1) {
-        ++up;
+        lowest <<= 1;
+        ++bits;
     }
-    for (; rest < (over >> 1); rest <<= 1) {
-        ++down;
+    for (; (bits > 4) && (rest < (over >> 4)); rest <<= 4) {
+        bits -= 4;
     }
-    bits = shift + 1 + (int32_t)(up & 0x7FU) - (int32_t)(down & 0x7FU); /* neither is more than 66 */
-    if ((bits < 1) || (bits > 29)) {
+    if ((bits < 1) || (bits > 30) || (lowest > (0x7FFFFFFFU >> bits))) {
         return false;
     }
-    end = (uint32_t)1U << (uint32_t)bits;
+    end = (uint32_t)1U << bits;
     do {
         rest <<= 1;
         quotient <<= 1;
@@ -549,69 +553,52 @@ static inline bool fieldscribe_narrow_ratio(
         }
     } while (quotient < end);
     quotient -= end;
-    /* at most 5 shifts follow a loss: lost bits take less than 32 quotients from the rest, and add less than 32 ends */
-    if ((lost != 0U) && (((rest >> 5) <= quotient) || (((over - rest) >> 5) < end))) {
+    lowest *= quotient;
+    *left_over = ((uint64_t)rest << apart) != lowest;
+    lowest = (lowest + (((uint32_t)1U << apart) - 1U)) >> apart;
+    /* `rest` was doubled at most 4 times more than `end`: lost bits would add less than 16 times `end` to it */
+    if ((lost != 0U) && ((rest < lowest) || (((over - rest) >> 4) <= end))) {
         return false;
     }
-    *twice = quotient;
-    *left_over = rest != 0U;
+    *twice = quotient - ((rest < lowest) ? 1U : 0U);
     return true;
 }
 
-/* fieldscribe_twice_ratio of number / divisor in 64 bits; false, with nothing stored, if 64 bits may be too few. */
+/* 2 * number / divisor * 2^shift, rounded down, in 64 bits; false, with nothing stored, if these may be too few. */
 static inline bool fieldscribe_short_ratio(
     uint64_t number, uint64_t divisor, int32_t shift, uint64_t *twice, bool *left_over)
 {
     uint64_t rest = number;
     uint64_t over = divisor;
     uint64_t quotient = 0U;
-    uint32_t shifts = 0U;
-    int32_t bits;
+    int32_t bits = shift + 1;
     if (((number | divisor) > (uint64_t)INT64_MAX) || (shift < -63) || (shift > 62)) {
         return false;
     }
-    if ((divisor & (divisor - 1U)) == 0U) {
-        for (; over > 0xFU; over >>= 4) {
-            shifts += 4U;
-        }
-        for (; over > 1U; over >>= 1) {
-            ++shifts;
-        }
-        bits = shift + 1 - (int32_t)(shifts & 0x3FU); /* at most 62 */
-        if ((bits < -63) || ((bits > 0) && (number > (UINT64_MAX >> bits)))) {
-            return false;
-        }
-        quotient = (bits < 0) ? (number >> -bits) : (number << bits);
-        rest = (bits < 0) ? (number - (quotient << -bits)) : 0U;
-    } else if (fieldscribe_narrow_ratio(number, divisor, shift, twice, left_over)) {
-        return true;
-    } else {
-        for (; over <= rest; over <<= 1) {
-            ++shifts;
-        }
-        bits = shift + 1 + (int32_t)(shifts & 0x3FU); /* at most 63 */
-        if ((over > (uint64_t)INT64_MAX) || (bits > 64)) {
-            return false;
-        }
-        if (bits > 32) {
-            quotient = (uint64_t)fieldscribe_quotient_bits(&rest, over, bits - 32) << 32;
-            bits = 32;
-        }
-        quotient |= fieldscribe_quotient_bits(&rest, over, bits);
+    for (; over <= rest; over <<= 1) {
+        ++bits;
     }
-    *twice = quotient;
+    if ((over > (uint64_t)INT64_MAX) || (bits > 64)) {
+        return false;
+    }
+    if (bits > 32) {
+        quotient = (uint64_t)fieldscribe_quotient_bits(&rest, over, bits - 32) << 32;
+        bits = 32;
+    }
+    *twice = quotient | fieldscribe_quotient_bits(&rest, over, bits);
     *left_over = rest != 0U;
     return true;
 }
 
 /*
- * 2 * a * b / divisor * 2^shift, rounded down; `left_over` tells if there is a remainder. False if the result needs
- * more than 64 bits. The divisor is in 1..2^63.
+ * 2 * a * b / (divisor * fives) * 2^shift, rounded down; `left_over` tells if there is a remainder. False if the result
+ * needs more than 64 bits, or the product of the divisors, which is above 0, more than 63.
  */
 static inline bool fieldscribe_twice_ratio(
-    uint64_t a, uint64_t b, uint64_t divisor, int32_t shift, uint64_t *twice, bool *left_over)
+    uint64_t a, uint64_t b, uint64_t divisor, uint64_t fives, int32_t shift, uint64_t *twice, bool *left_over)
 {
     fieldscribe_u128 number = {0U, a};
+    fieldscribe_u128 over = {0U, divisor};
     uint64_t rest = 0U;
     uint64_t quotient = 0U;
     int32_t bit = -129;
@@ -619,11 +606,28 @@ static inline bool fieldscribe_twice_ratio(
     if (b != 1U) {
         number = fieldscribe_product(a, b);
     }
-    if ((number.high == 0U) && fieldscribe_short_ratio(number.low, divisor, shift, twice, left_over)) {
+    if (number.high == 0U) {
+        if ((divisor == 1U) && (fives == 1U) && (shift > -64) && (shift < 63) &&
+            ((shift < 0) || (number.low <= ((uint64_t)INT64_MAX >> shift)))) {
+            *twice = (shift < 0) ? (number.low >> (-1 - shift)) : ((number.low << shift) << 1);
+            *left_over = (shift < -1) && ((*twice << (-1 - shift)) != number.low);
+            return true;
+        }
+        if (fieldscribe_narrow_ratio(number.low, divisor, fives, shift, twice, left_over)) {
+            return true;
+        }
+    }
+    if (fives != 1U) {
+        over = fieldscribe_product(divisor, fives);
+    }
+    if ((over.high != 0U) || (over.low > ((uint64_t)INT64_MAX + 1U))) {
+        return false;
+    }
+    if ((number.high == 0U) && fieldscribe_short_ratio(number.low, over.low, shift, twice, left_over)) {
         return true;
     }
     while (fits && (bit < shift)) {
-        const uint64_t next = fieldscribe_quotient_bit(&number, &rest, divisor);
+        const uint64_t next = fieldscribe_quotient_bit(&number, &rest, over.low);
         fits = quotient <= (uint64_t)INT64_MAX;
         quotient = ((quotient & (uint64_t)INT64_MAX) << 1) | next;
         ++bit;
@@ -682,18 +686,17 @@ FIELDSCRIBE_STATUS fieldscribe_exact_count(bool negative, uint64_t size, uint64_
     return status;
 }
 
-/* number * num / den * 2^shift to the nearest integer, halves away from zero, exact; false if that does not fit. */
-static inline bool fieldscribe_ratio_of(int64_t number, int64_t num, int64_t den, int32_t shift, int64_t *result)
+/* number * num / (den * fives) * 2^shift to the nearest integer, halves away from zero; false if it does not fit. */
+static inline bool fieldscribe_ratio_of(
+    int64_t number, int64_t num, int64_t den, int64_t fives, int32_t shift, int64_t *result)
 {
     const bool negative = (number < 0) != ((num < 0) != (den < 0));
     uint64_t twice = 0U;
     bool left_over = false;
-    if ((!fieldscribe_twice_ratio(fieldscribe_magnitude(number), fieldscribe_magnitude(num), fieldscribe_magnitude(den),
-            shift, &twice, &left_over)) || (twice >= UINT64_MAX)) {
-        return false;
-    }
-    twice = (twice + 1U) / 2U;
-    if (twice > (uint64_t)INT64_MAX) {
+    const bool fits = fieldscribe_twice_ratio(fieldscribe_magnitude(number), fieldscribe_magnitude(num),
+        fieldscribe_magnitude(den), (uint64_t)fives, shift, &twice, &left_over);
+    twice = (twice / 2U) + (twice & 1U);
+    if ((!fits) || (twice > (uint64_t)INT64_MAX)) {
         return false;
     }
     *result = negative ? -(int64_t)twice : (int64_t)twice;
@@ -704,16 +707,10 @@ static inline bool fieldscribe_ratio_of(int64_t number, int64_t num, int64_t den
 static inline bool fieldscribe_multiply(int64_t a, int64_t b, int64_t *product)
 {
     fieldscribe_u128 size;
-    if ((a >= 0) && (b >= 0)) {
-        const uint64_t bits = (uint64_t)a | (uint64_t)b;
-        if (bits <= 0xFFFFU) {
-            *product = (int64_t)((uint32_t)((uint64_t)a & 0xFFFFU) * (uint32_t)((uint64_t)b & 0xFFFFU));
-            return true;
-        }
-        if (bits <= 0x7FFFFFFFU) {
-            *product = (int64_t)(((uint64_t)a & 0x7FFFFFFFU) * ((uint64_t)b & 0x7FFFFFFFU));
-            return true;
-        }
+    if (((uint64_t)a <= 0x7FFFFFFFU) && ((uint64_t)b <= 0xFFFFU)) { /* two products of 32 bits */
+        const uint32_t high = ((uint32_t)a >> 16) * (uint32_t)b;
+        *product = (int64_t)(((uint64_t)high << 16) + (((uint32_t)a & 0xFFFFU) * (uint32_t)b));
+        return true;
     }
     size = fieldscribe_product(fieldscribe_magnitude(a), fieldscribe_magnitude(b));
     if ((size.high != 0U) || (size.low > (uint64_t)INT64_MAX)) {
@@ -746,7 +743,7 @@ static inline bool fieldscribe_add(int64_t a, int64_t b, int64_t *sum)
 /* The magnitude of a number as mantissa and power of two; the exponent is above 104 only for infinity and NaN. */
 static inline uint32_t fieldscribe_f32_mantissa(uint32_t bits)
 {
-    return (bits & 0x7FFFFFU) | (((bits & 0x7F800000U) != 0U) ? 0x800000U : 0U);
+    return (bits & 0x7FFFFFU) | ((((bits >> 23) & 0xFFU) != 0U) ? 0x800000U : 0U);
 }
 
 static inline int32_t fieldscribe_f32_exponent(uint32_t bits)
@@ -895,32 +892,28 @@ static inline fieldscribe_rule fieldscribe_rule_ten_to(fieldscribe_rule rule, in
  */
 static inline fieldscribe_rule fieldscribe_rule_f32(fieldscribe_rule rule, uint32_t bits, bool divides, int32_t twos)
 {
-    int32_t exponent = fieldscribe_f32_exponent(bits);
-    uint32_t size = (exponent > 104) ? 0U : fieldscribe_f32_mantissa(bits);
-    int64_t factor;
-    for (; (size != 0U) && ((size & 0xFFU) == 0U); size >>= 8) { /* short numbers cost less */
-        exponent += 8;
-    }
-    factor = (bits > 0x7FFFFFFFU) ? -(int64_t)size : (int64_t)size;
+    const int32_t exponent = fieldscribe_f32_exponent(bits);
+    const uint32_t size = (exponent > 104) ? 0U : fieldscribe_f32_mantissa(bits);
+    const int64_t factor = (bits > 0x7FFFFFFFU) ? -(int64_t)size : (int64_t)size;
     rule.shift += twos + (divides ? -exponent : exponent);
     return divides ? fieldscribe_rule_over(rule, factor) : fieldscribe_rule_times(rule, factor);
 }
 
 /*
- * count * num / den * 2^shift + offset / parts to the nearest integer, rounded once; false if it is far outside all raw
+ * count * num / (den * tens) * 2^shift + offset / parts to the nearest integer, rounded once; false if it is far outside all raw
  * numbers. The sum is computed as twice the number of parts, plus the remainder of a division.
  */
-static inline bool fieldscribe_lifted(const fieldscribe_rule *rule, int64_t count, int64_t den, int64_t *raw)
+static inline bool fieldscribe_lifted(const fieldscribe_rule *rule, int64_t count, int64_t tens, int64_t *raw)
 {
-    const bool negative = (count < 0) != ((rule->num < 0) != (den < 0));
+    const bool negative = (count < 0) != ((rule->num < 0) != (rule->den < 0));
     uint64_t twice = 0U;
     bool left_over = false;
     int64_t parts = 0;
     int64_t num = 0;
     int64_t sum = 0;
     if ((!fieldscribe_multiply(rule->num, rule->parts, &num)) ||
-        (!fieldscribe_twice_ratio(fieldscribe_magnitude(count), fieldscribe_magnitude(num), fieldscribe_magnitude(den),
-            rule->shift, &twice, &left_over)) ||
+        (!fieldscribe_twice_ratio(fieldscribe_magnitude(count), fieldscribe_magnitude(num),
+            fieldscribe_magnitude(rule->den), (uint64_t)tens, rule->shift, &twice, &left_over)) ||
         (twice > (uint64_t)INT64_MAX) || (!fieldscribe_multiply(rule->offset, 2, &sum)) ||
         (!fieldscribe_add(sum, negative ? -(int64_t)twice : (int64_t)twice, &sum))) {
         return false;
@@ -929,18 +922,14 @@ static inline bool fieldscribe_lifted(const fieldscribe_rule *rule, int64_t coun
     if (left_over && (sum != 0) && ((sum < 0) != negative)) {
         sum += (sum < 0) ? 1 : -1;
     }
-    return fieldscribe_multiply(rule->parts, 2, &parts) && fieldscribe_ratio_of(sum, 1, parts, 0, raw);
+    return fieldscribe_multiply(rule->parts, 2, &parts) && fieldscribe_ratio_of(sum, 1, parts, 1, 0, raw);
 }
 
 /* The raw number of `count`; `tens` counts are one unit. False if it does not fit. */
 static inline bool fieldscribe_apply_rule(const fieldscribe_rule *rule, int64_t count, int64_t tens, int64_t *raw)
 {
-    int64_t den = 0;
-    if (!fieldscribe_multiply(rule->den, tens, &den)) {
-        return false;
-    }
-    return (rule->offset == 0) ? fieldscribe_ratio_of(count, rule->num, den, rule->shift, raw)
-                               : fieldscribe_lifted(rule, count, den, raw);
+    return (rule->offset == 0) ? fieldscribe_ratio_of(count, rule->num, rule->den, tens, rule->shift, raw)
+                               : fieldscribe_lifted(rule, count, tens, raw);
 }
 
 /* The raw number of a count, if it is in low..high. */
@@ -959,13 +948,11 @@ static inline fieldscribe_whole fieldscribe_ruled_count(
 static inline fieldscribe_whole fieldscribe_ratio_count(
     fieldscribe_rule rule, int64_t count, int64_t fives, int32_t twos, int64_t low, int64_t high)
 {
-    int64_t den = 0;
     int64_t raw = 0;
     if (rule.status != FIELDSCRIBE_OK) {
         return fieldscribe_no_whole(rule.status);
     }
-    return (fieldscribe_multiply(rule.den, fives, &den) &&
-               fieldscribe_ratio_of(count, rule.num, den, rule.shift - twos, &raw))
+    return fieldscribe_ratio_of(count, rule.num, rule.den, fives, rule.shift - twos, &raw)
         ? fieldscribe_whole_in(raw, low, high)
         : fieldscribe_no_whole(FIELDSCRIBE_OUT_OF_RANGE);
 }
@@ -980,7 +967,7 @@ FIELDSCRIBE_STATUS fieldscribe_decode_ratio(
         return rule.status;
     }
     if ((!fieldscribe_multiply(rule.den, fives, &den)) ||
-        (!fieldscribe_ratio_of(raw, den, rule.num, twos - rule.shift, &number))) {
+        (!fieldscribe_ratio_of(raw, den, rule.num, 1, twos - rule.shift, &number))) {
         return FIELDSCRIBE_OVERFLOW;
     }
     *count = number;
@@ -997,7 +984,7 @@ FIELDSCRIBE_STATUS fieldscribe_decode_count(fieldscribe_rule rule, int64_t raw, 
     if ((whole.status == FIELDSCRIBE_OK) &&
         ((!fieldscribe_multiply(raw, rule.parts, &number)) || (!fieldscribe_add(number, -rule.offset, &number)) ||
             (!fieldscribe_multiply(rule.den, tens, &den)) || (!fieldscribe_multiply(rule.num, rule.parts, &num)) ||
-            (!fieldscribe_ratio_of(number, den, num, -rule.shift, &whole.number)))) {
+            (!fieldscribe_ratio_of(number, den, num, 1, -rule.shift, &whole.number)))) {
         whole.status = FIELDSCRIBE_OVERFLOW;
     }
     return fieldscribe_store_s64(whole, count);

@@ -37,7 +37,7 @@ codegen-units = 1
 panic = "abort"
 """
 RUST_TARGET = "thumbv6m-none-eabi"
-NOTHING, BUILD, PARSE, ASK, BOTH, POINTS, ENCODE, DECODE, POWER = range(9)
+NOTHING, BUILD, PARSE, ASK, BOTH, POINTS, ENCODE, DECODE, POWER, LONG_ENCODE, LONG_DECODE = range(11)
 TICK, INSTRUCTION = 62.5, 64.0
 """Nanoseconds of the timer and of an instruction."""
 
@@ -102,10 +102,12 @@ def rows(folder: Path) -> Iterator[tuple[str, float, float | None, float]]:
     yield "one more point read and written, bytes", two - one, None, 60
     _vendor("c", folder, "main_setpoint,main_actual_value", "siemens_mm4")
     _vendor("c", folder, "generator_voltage_l1_l2", "woodward_mpu2s")
-    images = {part: _image(folder, "scales", part) for part in (NOTHING, ENCODE, DECODE, POWER)}
+    images = {part: _image(folder, "scales", part) for part in (NOTHING, *range(ENCODE, LONG_DECODE + 1))}
     took = {part: _instructions(image) - _instructions(images[NOTHING]) for part, image in images.items()}
     yield "MM4: setpoint of 25 Hz to raw, instructions", took[ENCODE], None, 400
     yield "MM4: actual value to a count, instructions", took[DECODE], None, 400
+    yield "the same of 87.3 Hz, where both are linked: to raw", took[LONG_ENCODE], None, 400
+    yield "to a count, instructions", took[LONG_DECODE], None, 400
     yield "MPU2-S: voltage to a count, instructions", took[POWER], None, 100
     yield "and bytes", _bytes(images[POWER]) - _bytes(images[NOTHING]), None, 300
     _vendor("rust", folder, "A020")

@@ -157,10 +157,10 @@ void prove_128_bits(void)
     (void)status;
     (void)fieldscribe_quotient_bit(&product, &rest, big);
     (void)fieldscribe_quotient_bits(&rest, big, between(0, 32));
-    (void)fieldscribe_narrow_ratio(big, big, between(-63, 62), &a_u64, &left_over);
+    (void)fieldscribe_narrow_ratio(big, big, big, narrow, &a_u64, &left_over);
     (void)fieldscribe_short_ratio(big, big, narrow, &a_u64, &left_over);
-    (void)fieldscribe_twice_ratio(big, big, big, narrow, &a_u64, &left_over);
-    (void)fieldscribe_ratio_of(wide, wide, wide, narrow, &an_s64);
+    (void)fieldscribe_twice_ratio(big, big, big, big, narrow, &a_u64, &left_over);
+    (void)fieldscribe_ratio_of(wide, wide, wide, between_wide(1, INT64_MAX), narrow, &an_s64);
     (void)fieldscribe_multiply(wide, wide, &an_s64);
     (void)fieldscribe_add(wide, wide, &an_s64);
 }
@@ -203,7 +203,7 @@ void prove_ruled(void)
     status = fieldscribe_decode_ratio(rule, wide, between_wide(1, INT64_MAX), between(0, 18), &an_s64);
     status = fieldscribe_decode_power(fits, narrow, between(0, 9), &an_s64);
     (void)fieldscribe_apply_rule(&rule, wide, between_wide(1, INT64_MAX), &an_s64);
-    (void)fieldscribe_lifted(&rule, wide, between_wide(-INT64_MAX, INT64_MAX), &an_s64);
+    (void)fieldscribe_lifted(&rule, wide, between_wide(1, INT64_MAX), &an_s64);
     (void)status;
     (void)whole;
     (void)plain;

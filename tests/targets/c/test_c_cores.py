@@ -48,6 +48,7 @@ def rules(rng: random.Random) -> Iterator[tuple[int, int, int, int, int]]:
     for _ in range(1000):  # next to a half, with a divisor of more than 32 bits
         den, twice = rng.randrange(1 << 33, 1 << 40), rng.getrandbits(22) >> rng.randint(0, 18)
         yield den * (twice | 1) // 2 + rng.randint(-1, 1), 1, den, 0, 1
+    yield -(2**32) - 1, 1, 1024, 2**23 + 1, 2  # the lowest bit alone makes it less than a half
 
 
 def test_rules_are_exact_in_128_bits(tmp_path: Path) -> None:
