@@ -501,8 +501,8 @@ static inline uint32_t fieldscribe_quotient_bits(uint64_t *rest, uint64_t diviso
 
 /*
  * 2 * number / (divisor * fives) * 2^shift, rounded down, in 32 bits; false, with nothing stored, if these may be too
- * few. The lowest bits of a long product of divisors do not take part in the division: they may make the quotient one
- * less. Nor do those of a long number, which are not to matter.
+ * few. The lowest bits of long divisors take no part in the division, and may make the quotient one less; nor do those
+ * of a long number, where they cannot change it.
  */
 static inline bool fieldscribe_narrow_ratio(
     uint64_t number, uint64_t divisor, uint64_t fives, int32_t shift, uint64_t *twice, bool *left_over)
@@ -515,13 +515,14 @@ static inline bool fieldscribe_narrow_ratio(
     uint32_t end;
     uint32_t quotient = 1U; /* ahead of its bits; at `end` all of them are there */
     uint32_t apart = 16U;   /* the size of `lowest` */
-    int32_t bits = shift + 1;
+    uint32_t up = 0U;       /* at most 66 */
+    int32_t bits;
     if ((divisor > 0x7FFFFFFFU) || (fives > 0xFFFFU)) {
         return false;
     }
     for (; leading > 0x3FFFFFFFU; leading >>= 4) {
         lost |= (uint32_t)(leading & 0xFU);
-        bits += 4;
+        up += 4U;
     }
     rest = (uint32_t)leading;
     lowest = ((uint32_t)divisor & 0xFFFFU) * (uint32_t)fives;
@@ -530,13 +531,13 @@ static inline bool fieldscribe_narrow_ratio(
     while ((over <= 0x7FFFFFU) && (apart > 0U)) {
         apart -= 8U;
         over = (over << 8) | (lowest >> apart);
-        lowest &= 0xFFU * (apart / 8U);
+        lowest &= ((uint32_t)1U << apart) - 1U;
     }
-    bits -= (int32_t)apart;
     for (; over <= rest; over <<= 1) {
         lowest <<= 1;
-        ++bits;
+        ++up;
     }
+    bits = shift + 1 + (int32_t)(up & 0x7FU) - (int32_t)apart;
     for (; (bits > 4) && (rest < (over >> 4)); rest <<= 4) {
         bits -= 4;
     }
@@ -554,7 +555,7 @@ static inline bool fieldscribe_narrow_ratio(
     } while (quotient < end);
     quotient -= end;
     lowest *= quotient;
-    *left_over = ((uint64_t)rest << apart) != lowest;
+    *left_over = (lost != 0U) || (((uint64_t)rest << apart) != lowest);
     lowest = (lowest + (((uint32_t)1U << apart) - 1U)) >> apart;
     /* `rest` was doubled at most 4 times more than `end`: lost bits would add less than 16 times `end` to it */
     if ((lost != 0U) && ((rest < lowest) || (((over - rest) >> 4) <= end))) {
@@ -571,13 +572,15 @@ static inline bool fieldscribe_short_ratio(
     uint64_t rest = number;
     uint64_t over = divisor;
     uint64_t quotient = 0U;
-    int32_t bits = shift + 1;
+    uint32_t up = 0U;
+    int32_t bits;
     if (((number | divisor) > (uint64_t)INT64_MAX) || (shift < -63) || (shift > 62)) {
         return false;
     }
     for (; over <= rest; over <<= 1) {
-        ++bits;
+        ++up;
     }
+    bits = shift + 1 + (int32_t)(up & 0x3FU); /* at most 63 */
     if ((over > (uint64_t)INT64_MAX) || (bits > 64)) {
         return false;
     }
@@ -900,8 +903,8 @@ static inline fieldscribe_rule fieldscribe_rule_f32(fieldscribe_rule rule, uint3
 }
 
 /*
- * count * num / (den * tens) * 2^shift + offset / parts to the nearest integer, rounded once; false if it is far outside all raw
- * numbers. The sum is computed as twice the number of parts, plus the remainder of a division.
+ * count * num / (den * tens) * 2^shift + offset / parts to the nearest integer, rounded once; false if it is far
+ * outside all raw numbers. The sum is computed as twice the number of parts, plus the remainder of a division.
  */
 static inline bool fieldscribe_lifted(const fieldscribe_rule *rule, int64_t count, int64_t tens, int64_t *raw)
 {

@@ -43,7 +43,7 @@ class Points(PointTable):
             0x05: "device_failure",
         },
     )
-    GROUPS: ClassVar[tuple[Group, ...]] = get_args(Group)
+    GROUPS: tuple[Group, ...] = get_args(Group)
     BLOCKS: ClassVar = {
         "measurements": (
             Block("input", 0x04, 0x0000, 2),

@@ -136,7 +136,7 @@ class Points(PointTable):
             0x0B: "gateway_target_failed_to_respond",
         },
     )
-    GROUPS: ClassVar[tuple[Group, ...]] = get_args(Group)
+    GROUPS: tuple[Group, ...] = get_args(Group)
     BLOCKS: ClassVar = {
         "common": (Block("holding", 0x03, 0x0002, 65, "models_1"),),
         "inverter": (Block("holding", 0x03, 0x0002, 50, "models_103"),),

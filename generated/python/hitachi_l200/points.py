@@ -69,7 +69,7 @@ class Points(PointTable):
             0x22: "not_available",
         },
     )
-    GROUPS: ClassVar[tuple[Group, ...]] = get_args(Group)
+    GROUPS: tuple[Group, ...] = get_args(Group)
     BLOCKS: ClassVar = {
         "coils": (Block("coil", 0x01, 0x0000, 11), Block("coil", 0x01, 0x000D, 18)),
         "status": (

@@ -41,7 +41,7 @@ class Points(PointTable):
             0x08: "write_refused",
         },
     )
-    GROUPS: ClassVar[tuple[Group, ...]] = get_args(Group)
+    GROUPS: tuple[Group, ...] = get_args(Group)
     BLOCKS: ClassVar = {
         "process_data": (
             Block("holding", 0x03, 0x001F, 3),

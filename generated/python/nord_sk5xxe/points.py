@@ -74,7 +74,7 @@ class Points(PointTable):
         broadcast=None,
         framings=("rtu",),
     )
-    GROUPS: ClassVar[tuple[Group, ...]] = get_args(Group)
+    GROUPS: tuple[Group, ...] = get_args(Group)
     BLOCKS: ClassVar = {
         "process_data": (
             Block("holding", 0x03, 0x0C80, 6),

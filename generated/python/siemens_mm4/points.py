@@ -107,7 +107,7 @@ class Points(PointTable):
         telegrams=(Telegram("task", "request", 8), Telegram("answer", "response", 8)),
         variant_pzd={("model", "mm410"): (0, 4), ("model", "mm420"): (0, 4)},
     )
-    GROUPS: ClassVar[tuple[Group, ...]] = get_args(Group)
+    GROUPS: tuple[Group, ...] = get_args(Group)
     VARIANTS: ClassVar = {
         "model": ("mm410", "mm420", "mm430", "mm440"),
         "interface": ("rs485", "rs232"),

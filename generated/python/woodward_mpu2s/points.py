@@ -163,7 +163,7 @@ class Points(PointTable):
         ),
         telegrams=(Telegram("visualisation", "cyclic", 69, "visualisation"),),
     )
-    GROUPS: ClassVar[tuple[Group, ...]] = get_args(Group)
+    GROUPS: tuple[Group, ...] = get_args(Group)
     VARIANTS: ClassVar = {"voltage": ("100V", "400V")}
     DOCUMENTED: ClassVar = {
         "reserved_word_11": Documented("reserved by the maker"),

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     G_co = TypeVar("G_co", bound=str, covariant=True)
 
     class Grouped(Protocol[G_co]):
-        """A device with the names of its groups as a Literal."""
+        """A device with the names of its groups as a Literal. To pyright, a ClassVar would be no such property."""
 
         @property
         def GROUPS(self) -> tuple[G_co, ...]:

@@ -61,7 +61,7 @@ class PointTable:
     """A device's points, with what its bus needs to know."""
 
     POINTS: ClassVar[Mapping[str, PointAttribute[Any, Any]]] = {}
-    GROUPS: ClassVar[tuple[str, ...]] = ()
+    GROUPS: tuple[str, ...] = ()
     """The groups that `read_many` reads."""
     BLOCKS: ClassVar[Mapping[str, tuple[Any, ...]]] = {}
     """Planned reads by group, if the family plans them."""
