@@ -157,7 +157,7 @@ void prove_128_bits(void)
     (void)status;
     (void)fieldscribe_quotient_bit(&product, &rest, big);
     (void)fieldscribe_quotient_bits(&rest, big, between(0, 32));
-    (void)fieldscribe_narrow_ratio(big, big, big, narrow, &a_u64, &left_over);
+    (void)fieldscribe_narrow_ratio(big, big, big, between(-63, 62), &a_u64, &left_over);
     (void)fieldscribe_short_ratio(big, big, narrow, &a_u64, &left_over);
     (void)fieldscribe_twice_ratio(big, big, big, big, narrow, &a_u64, &left_over);
     (void)fieldscribe_ratio_of(wide, wide, wide, between_wide(1, INT64_MAX), narrow, &an_s64);
