@@ -517,7 +517,7 @@ static inline bool fieldscribe_narrow_ratio(
     uint32_t apart = 16U;   /* the size of `lowest` */
     uint32_t up = 0U;       /* at most 66 */
     int32_t bits;
-    if ((divisor > 0x7FFFFFFFU) || (fives > 0xFFFFU)) {
+    if ((divisor > 0x7FFFFFFFU) || (fives > 0xFFFFU) || (shift < -63) || (shift > 62)) {
         return false;
     }
     for (; leading > 0x3FFFFFFFU; leading >>= 4) {
@@ -710,7 +710,7 @@ static inline bool fieldscribe_ratio_of(
 static inline bool fieldscribe_multiply(int64_t a, int64_t b, int64_t *product)
 {
     fieldscribe_u128 size;
-    if (((uint64_t)a <= 0x7FFFFFFFU) && ((uint64_t)b <= 0xFFFFU)) { /* two products of 32 bits */
+    if ((a >= 0) && (a <= 0x7FFFFFFF) && (b >= 0) && (b <= 0xFFFF)) { /* two products of 32 bits */
         const uint32_t high = ((uint32_t)a >> 16) * (uint32_t)b;
         *product = (int64_t)(((uint64_t)high << 16) + (((uint32_t)a & 0xFFFFU) * (uint32_t)b));
         return true;
