@@ -161,7 +161,7 @@ class Exchanges:
         if encoding not in self._typical:
             self._typical[encoding] = self._of_encoding(encoding)
         typical = self._typical[encoding]
-        if typical is None:
+        if typical is None or any(_share_words(point, self.points[name]) for name in typical.settings):
             return
         if typical.settings:
             self.lines.set("with", typical.settings)
@@ -251,6 +251,12 @@ class Exchanges:
         self.spoiled.add(first)
         for status, bad in self.wire.bad_answers(point, script, writes=kind != "read"):
             self.lines.add(kind, bad, status, None if kind == "read" else raw)
+
+
+def _share_words(point: Point, other: Point) -> bool:
+    """Return True if a frame with one point has words of the other: its content is then not free."""
+    same = point.space == other.space and point.telegram == other.telegram
+    return same and not set(point.addresses).isdisjoint(other.addresses)
 
 
 def typical(oracle: Oracle, encoding: PointEncoding, settings: dict[str, int]) -> int | None:
