@@ -99,8 +99,9 @@ def _compare_fixed_bits(analysis: Analysis, located: LocatedFrame, seen: Seen, p
         word = seen.raw(_whole_word(point), analysis.scope.family.indexed)
         if word is None or point.fixed is None or word & point.fixed.mask == point.fixed.bits:
             continue
-        message = f"the word of `{point.name}` is {word & 0xFFFF:04X}h, {wording.fixed_text(point)}"
-        analysis.report_printed(located.printed("fixed", f"{word & 0xFFFF:04X}h", None, message))
+        printed = f"{word & 0xFFFF:04X}h"
+        message = f"the word of `{point.name}` is {printed}, {wording.fixed_text(point)}"
+        analysis.report_printed(located.printed("fixed", printed, None, message))
 
 
 def _whole_word(point: Point) -> Point:
@@ -112,7 +113,8 @@ def _whole_word(point: Point) -> Point:
 
 def report_no_frame(analysis: Analysis, located: LocatedFrame, message: str) -> Seen:
     """Report bytes that are not a frame of the device; an erratum may give the right ones."""
-    analysis.report_printed(located.printed("form", hex_of(located.frame.printed), None, message))
+    printed = hex_of(located.frame.printed)
+    analysis.report_printed(located.printed("form", printed, None, message))
     return Seen(replace(located.frame, valid=False))
 
 

@@ -218,7 +218,8 @@ def _pairs(analysis: Analysis, resolved: ResolvedPoint, pairs: Map) -> None:
 
 def _half_digit(value: Any) -> Fraction:
     """Return half a unit of the last printed digit: the largest rounding error."""
-    return Fraction(1, 2 * 10 ** len(str(value).partition(".")[2]))
+    decimals = len(str(value).partition(".")[2])
+    return Fraction(1, 2 * 10**decimals)
 
 
 def _step(point: Point) -> Fraction | None:

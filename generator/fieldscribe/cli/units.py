@@ -49,7 +49,9 @@ def _named(word: str) -> list[Known]:
     unit, name = shipped_unit(word), word.casefold()
     if unit is not None:
         return [known for known in shipped().values() if known.unit == unit]
-    return [each for each in shipped().values() if name in (each.unit.name.casefold(), each.unit.quantity.casefold())]
+    return [
+        known for known in shipped().values() if name in (known.unit.name.casefold(), known.unit.quantity.casefold())
+    ]
 
 
 def _as_data(known: Known) -> dict[str, str]:

@@ -194,7 +194,8 @@ def _value(scope: Scope, axis: str, constant: Constant, written: Written) -> str
     """Return the value of a variant axis that a constant names; it may consist of digits."""
     values = scope.axes[axis]["values"]
     if constant.text not in values:
-        scope.unknown("variant", constant.text, written.span.moved(constant.column), [*values])
+        place = written.span.moved(constant.column)
+        scope.unknown("variant", constant.text, place, [*values])
         raise FactError
     return constant.text
 

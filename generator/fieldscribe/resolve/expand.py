@@ -231,7 +231,8 @@ def _record(scope: Scope, group: Map, use: Map) -> Iterator[PointFacts]:
     members = {point["name"] for point in record["points"]}
     for name in use.get("members", {}):
         if name not in members:
-            scope.unknown("member", name, use["members"].key_span(name), sorted(members))
+            span = use["members"].key_span(name)
+            scope.unknown("member", name, span, sorted(members))
     for point in record["points"]:
         if "record" in point:
             message = f"a record cannot contain the record `{point['record']}`"

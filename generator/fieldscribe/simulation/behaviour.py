@@ -266,7 +266,8 @@ class Behaviour:
         if ref.kind == "plant":
             self._plant[ref.name] = number
             return
-        raw, flag = self._encoded(ref, self._points[ref.name], number), ref.flag
+        point = self._points[ref.name]
+        raw, flag = self._encoded(ref, point, number), ref.flag
         self._held[ref] = raw
         if flag is not None:
             bits = raw if flag.active or flag.width > 1 else 1 - raw

@@ -142,7 +142,8 @@ class _Reader:
         first = 0 if number is None or number >= len(self._heads) else self._heads[number]
         ends = [head for head in self._heads if number is None or head > first]
         for line in range(first, ends[0] if ends else len(self._lines)):
-            if re.match(rf"\s*(\"?){re.escape(key)}\1\s*=", self._lines[line]) is not None:
+            match = re.match(rf"\s*(\"?){re.escape(key)}\1\s*=", self._lines[line])
+            if match is not None:
                 return Span(shown_path(self._file), line + 1, self._lines[line].index(key) + 1, len(key))
         return Span(shown_path(self._file), first + 1, 1)
 

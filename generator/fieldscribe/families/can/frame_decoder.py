@@ -112,7 +112,9 @@ class CanFrameDecoder:
         messages = [message for message, _ in _senders(self._device, frame) if message.roles and _fits(message, frame)]
         if any(carries(message, "xor") for message in messages):
             return tuple(range(LENGTH))
-        return tuple(place for place in range(LENGTH) if any(each.roles[place].kind != "word" for each in messages))
+        return tuple(
+            place for place in range(LENGTH) if any(message.roles[place].kind != "word" for message in messages)
+        )
 
     def recognise(self, frame: CanFrame) -> Head | None:
         """Return the frame as the message with the fewest flaws; None if no message fits."""
@@ -223,7 +225,8 @@ class CanFrameDecoder:
     def _unknown(self, frame: CanFrame) -> DecodedFrame:
         """Return the result of a frame that is not a message of the device, or is incomplete."""
         text = f"CAN {hex_text(frame.id, 3)}"
-        result = FrameResult("can", "other", None, None, text, details={"can_id": frame.id})
+        details = {"can_id": frame.id}
+        result = FrameResult("can", "other", None, None, text, details=details)
         senders = list(_senders(self._device, frame))
         if senders:
             fault = _unknown_kind(frame, [message for message, _ in senders])

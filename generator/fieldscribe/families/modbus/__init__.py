@@ -66,7 +66,9 @@ class Space:
 
 _DOES = frozenset(field.name for field in fields(Space))
 SPACES: Mapping[str, Space] = {
-    name: Space(**{each.does: code for code, each in FUNCTIONS.items() if each.space == name and each.does in _DOES})
+    name: Space(
+        **{each.does: number for number, each in FUNCTIONS.items() if each.space == name and each.does in _DOES}
+    )
     for name in FAMILY.spaces
 }
 

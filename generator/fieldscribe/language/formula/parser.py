@@ -84,7 +84,8 @@ def tokens(text: str) -> list[Token]:
         match = _TOKEN.match(text, offset)
         if match is None:
             _refuse(text, offset)
-        if match.lastgroup == "end":
+        kind = match.lastgroup
+        if kind == "end":
             tokens.append(Token("end", "", "", len(text.rstrip(" \t"))))
             return tokens
         tokens.append(_token(match))

@@ -297,7 +297,9 @@ def _frame(point: Point, view: PointView, layouts: frames.Layouts, selections: S
         return frames.Frame((), (), transfer)
     text_place = f"{{{view.function}_addresses, {address}, {point.words}U}}"
     parts = [text_place if text else layouts.of(point, places_of(point))]
-    parts += [f"{{{unsigned(code)}, {at}, {point.words}U}}" for code, at in ((read, address), (write, to)) if code]
+    parts += [
+        f"{{{unsigned(number)}, {at}, {point.words}U}}" for number, at in ((read, address), (write, to)) if number
+    ]
     access = f"{'r' if read else ''}{('w' if point.bits is None else 'u') if write else ''}"
     kind = f"fieldscribe_modbus_{'text_' if text else ''}{access}"
     descriptor = frames.Descriptor(kind, name, f"{{{', '.join(parts)}}}", "_frame")

@@ -106,7 +106,8 @@ def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: frames
     changes_word = bool(reading) or point.bits is None
     calls = ((reading, "_frame"), (writing and changes_word, "_frame"), (storing and changes_word, "_eeprom_frame"))
     read, write, store = (f"{view.function}{tail}" if tasks else "" for tasks, tail in calls)
-    return frames.Frame(tuple(descriptors), tuple(cases), Transfer("uss", read, write, store))
+    transfer = Transfer("uss", read, write, store)
+    return frames.Frame(tuple(descriptors), tuple(cases), transfer)
 
 
 def _word(point: Point, view: PointView, layouts: frames.Layouts, scope: HeaderScope) -> frames.Frame:

@@ -24,7 +24,9 @@ def _profile(device: Device, scope: Scope) -> Node:
         facts["errors"] = {code.number: code.name for code in bus.exceptions}
     if device.telegrams:
         facts["telegrams"] = telegrams(device.telegrams, scope)
-    fewer = {(each.axis, each.value): (low, most) for each, most in dict(own.variant_pzd).items() if most < high}
+    fewer = {
+        (variant.axis, variant.value): (low, most) for variant, most in dict(own.variant_pzd).items() if most < high
+    }
     if fewer:
         facts["variant_pzd"] = fewer
     return call(scope.runtime("Profile"), **facts)
