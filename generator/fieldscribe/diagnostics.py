@@ -1,7 +1,7 @@
-"""Findings about a description, their rendering as text and as JSON, and errors for requests that cannot be fulfilled.
+"""Findings about a description, their rendering as text and as JSON; and errors of requests that cannot be fulfilled.
 
-A line of text is a list of (style, text), so that the command line can colour it. Control and bidi characters of a file
-are shown as their numbers.
+Stages add findings to a `Report`; the command line prints it. A line of text is a list of (style, text), so that it can
+be coloured. Control and bidi characters of a file are shown as their numbers.
 """
 
 from __future__ import annotations
@@ -208,19 +208,10 @@ class Report:
 
 def _clean(text: str) -> str:
     """Return the text without line breaks, control and bidi characters: it may quote any file on a terminal."""
-    if text.isprintable():
-        return text
-    from fieldscribe.text import line
-
-    return line(text)
+    return text if text.isprintable() else line(text)
 
 
-def show_traceback(error: BaseException) -> None:
-    """Print the traceback of an internal error if FIELDSCRIBE_DEBUG is set."""
-    if os.environ.get("FIELDSCRIBE_DEBUG"):
-        import traceback
-
-        traceback.print_exception(error)
+# Rendering.
 
 
 def as_lines(findings: Iterable[Diagnostic], read: ReadLines) -> Iterator[Line]:
@@ -295,11 +286,8 @@ def _frame(span: Span, margin: int, read: ReadLines, style: str) -> Iterator[Lin
     at = min(max(span.column - 1, 0), len(text))
     start = 0 if at <= BEFORE + 10 else at - BEFORE
     end = len(text) if len(text) <= at + AFTER + 10 else at + AFTER
-    before, marked = (
-        visible(text[start:at].lstrip() if start else text[start:at]),
-        text[at : min(at + span.width, end)],
-    )
-    before = f"... {before}" if start else before
+    before = f"... {visible(text[start:at].lstrip())}" if start else visible(text[:at])
+    marked = text[at : min(at + span.width, end)]
     after = visible(text[at + len(marked) : end]) + (" ..." if end < len(text) else "")
     number = f"{span.line:>{margin}}"
     yield [("frame", f"{number} | "), ("", f"{before}{visible(marked)}{after}".rstrip())]
@@ -317,6 +305,9 @@ def columns(text: str) -> int:
 
 def _place_data(span: Span) -> dict[str, object]:
     return {"file": span.file, "line": span.line, "column": span.column, "width": span.width}
+
+
+# Errors of requests.
 
 
 class UnclearError(Exception):
@@ -352,6 +343,14 @@ def did_you_mean(names: list[str]) -> str:
 def either(names: list[str]) -> str:
     """Return names as a choice, each marked as code."""
     return " or ".join(f"`{line(name)}`" for name in names)
+
+
+def show_traceback(error: BaseException) -> None:
+    """Print the traceback of an internal error if FIELDSCRIBE_DEBUG is set."""
+    if os.environ.get("FIELDSCRIBE_DEBUG"):
+        import traceback
+
+        traceback.print_exception(error)
 
 
 def can_package(interface: str, error: Exception) -> str:

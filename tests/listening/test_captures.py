@@ -10,8 +10,9 @@ from random import Random
 
 import pytest
 from fieldscribe.diagnostics import UnclearError
-from fieldscribe.listening.captures import Packets, PacketWriter, chunks_of, is_packet_file, read_packets
+from fieldscribe.listening.captures import Packets, chunks_of
 from fieldscribe.listening.chunks import BYTES, MESSAGE, STREAM, ByteCutter, Chunk, Packet, timed
+from fieldscribe.listening.packet_files import PacketWriter, is_packet_file, read_packets
 from support.captured import classic, segment
 
 PACKETS = [Packet(1700000000.000125, 1, b"\1\2\3"), Packet(1700000001.5, 147, b""), Packet(0.0, 227, bytes(300))]

@@ -1,4 +1,8 @@
-"""What `fieldscribe import` drafts: tables of a file, CAN databases, models of SunSpec, templates of a gateway."""
+"""The kinds of `fieldscribe import`: tables of a file, CAN databases, models of SunSpec, templates of a gateway.
+
+For each kind, a function that adds its options to the parser, and one that returns the draft and the lines of a report
+from the arguments. `import.py` calls them.
+"""
 
 import re
 import sys
@@ -22,6 +26,8 @@ from fieldscribe.importing.sunspec.models import read_models
 from fieldscribe.importing.wb import draft_template
 from fieldscribe.safe_files import read_regular
 from fieldscribe.text import counted, line
+
+# Tables.
 
 
 def add_table_arguments(parser: Parser) -> None:
@@ -139,6 +145,9 @@ def _print_left_out(drafted: Draft) -> None:
         print(f"{len(lines)} table{verbs} left out (line {shown}); `--list` shows them", file=sys.stderr)
 
 
+# CAN databases.
+
+
 def add_database_arguments(parser: Parser) -> None:
     """Add the options of `import dbc`."""
     parser.add_argument("--node", metavar="NAME", help="the device: it sends its messages, and receives all others")
@@ -178,6 +187,9 @@ def database_of(text: str) -> Any:
     except Exception as error:  # cantools raises whatever its parsers do
         reason = line(str(error))[:200] or type(error).__name__
         raise UnreadableError(f"this is no CAN database: {reason}", hint="cantools must be able to read it") from error
+
+
+# Models of SunSpec, and templates.
 
 
 def add_model_arguments(parser: Parser) -> None:

@@ -18,10 +18,11 @@ from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE
 from fieldscribe.conversation.decoder import logged_frame
 from fieldscribe.diagnostics import UnclearError, visible
 from fieldscribe.families import family
-from fieldscribe.listening.captures import PacketWriter, chunks_of, is_packet_file
+from fieldscribe.listening.captures import chunks_of
 from fieldscribe.listening.chunks import STREAM, Chunk, timed
 from fieldscribe.listening.exchanges import Exchange, Statistics, finding_text, seconds
 from fieldscribe.listening.listener import Listener, Station
+from fieldscribe.listening.packet_files import PacketWriter, is_packet_file
 from fieldscribe.live.lines import NAME, LineAddress, Project, read_line, read_project, require_line
 from fieldscribe.live.lines import Station as NamedStation
 from fieldscribe.model import Device

@@ -20,10 +20,12 @@ To add a function of a bus:
 1. Add a row to the table of the protocol: `FUNCTIONS` in `modbus/__init__.py`, or `_WRITE_TASKS` and `RESPONSE_WIDTHS`
    in `uss/telegrams.py`. Checks, profiles, generated tables and the vectors of all devices follow from it.
 2. If its bytes have a new form, add that to `frames.py` (USS: `telegrams.py`) and to `frame_decoder.py`. The runtimes
-   in `templates/<target>/runtime` have the same form once more, each in its language. A number beyond the others
-   changes the C profile: raise `FIELDSCRIBE_MODBUS_FUNCTIONS` and `..._INTERFACE`, which `templates/c/modbus.h.j2`
-   asks for.
-3. Add its requests and replies to `targets/vectors.py`: the vectors show where a language differs.
+   in `templates/<target>/runtime` have the same form once more, each in its language. In C, each function of Modbus is
+   an argument of `FIELDSCRIBE_MODBUS_PROFILE` in `fieldscribe_modbus_facts.h`: add one, and raise
+   `FIELDSCRIBE_MODBUS_INTERFACE` there and in `templates/c/modbus.h.j2`; a number above all others also raises
+   `FIELDSCRIBE_MODBUS_FUNCTIONS`.
+3. Add its requests and replies to the vectors, which show where a language differs: in `targets/wire.py` of Modbus,
+   `targets/vectors.py` of USS.
 
 A family leaves out the parts that it does not need; the caller of a part documents its interface.
 """

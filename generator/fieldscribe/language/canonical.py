@@ -1,4 +1,4 @@
-"""Writes the canonical form of a description: uniform blanks, indentation and quotes.
+"""The canonical form of a description, for `fmt`: uniform blanks, indentation and quotes.
 
 The text is split into pieces: signs, scalars and marks, each with the comments before it. Their order, and which of
 them share a line, stay as the author wrote them. Mappings are indented by two. The dashes of a list stand below its
@@ -91,9 +91,12 @@ class Piece(NamedTuple):
 _NO_GAP = Gap(None, 0, (), breaks=False)
 
 
-def unbroken(text: str) -> str:
-    """Return the text with one kind of line break."""
-    return text.replace("\r\n", "\n").replace("\r", "\n")
+def canonical(text: str) -> str:
+    """Return the canonical form of a valid text, with one kind of line break. Raises OddError."""
+    layout = _Layout()
+    for piece in _without_last_commas(pieces(text)):
+        layout.place(piece)
+    return layout.text()
 
 
 def comments(text: str) -> list[str]:
@@ -103,6 +106,14 @@ def comments(text: str) -> list[str]:
         gap = piece.gap
         texts += [comment.text for comment in (gap.trailing, *gap.lines) if comment is not None]
     return texts
+
+
+def unbroken(text: str) -> str:
+    """Return the text with one kind of line break."""
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+# A text in pieces.
 
 
 def pieces(text: str) -> Iterator[Piece]:
@@ -161,12 +172,7 @@ def _line(text: str) -> Comment | None:
     return Comment(stripped, len(text) - len(text.lstrip())) if stripped else None
 
 
-def canonical(text: str) -> str:
-    """Return the canonical form of a valid text, with one kind of line break. Raises OddError."""
-    layout = _Layout()
-    for piece in _without_last_commas(pieces(text)):
-        layout.place(piece)
-    return layout.text()
+# Pieces laid out.
 
 
 def _without_last_commas(all_pieces: Iterator[Piece]) -> Iterator[Piece]:

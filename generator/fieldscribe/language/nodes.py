@@ -1,4 +1,8 @@
-"""The text files of a description, read within limits, and YAML values that know where they stand in their file."""
+"""The text files of a description, read within limits, and YAML values that know where they stand in their file.
+
+`load` reads a file by `read_source` and makes `Map` and `Seq` of it. Places in the text are found when a finding first
+asks for one.
+"""
 
 from __future__ import annotations
 
@@ -22,6 +26,8 @@ MOST_BYTES = 16 * 1024 * 1024
 
 _FORBIDDEN = "[^\\t\\n\\r -~\\x85\\xa0-\\ud7ff\\ue000-\\ufefe\\uff00-\\ufffd\\U00010000-\\U0010ffff]"
 """The characters that YAML forbids; only a file with strange ones needs the pattern."""
+
+# Files, and places in their texts.
 
 
 Place = tuple[int, int]
@@ -169,6 +175,9 @@ def _content_place(event: Any) -> Place:
 
 def _place(event: Any) -> Place:
     return event.start_mark.line + 1, event.start_mark.column + 1
+
+
+# Values.
 
 
 class Map(dict[str, Any]):

@@ -1,8 +1,10 @@
 """Checks a file against the table of keys: reports what is wrong, with a hint of what was meant, and drops it.
 
-The checks are built from the table, each when a value first needs it. A test compares them with `jsonschema` on every
-description and every bad input.
+`files` calls `check_shape` for each document. The checks are built from the table, each when a value first needs it. A
+test compares them with `jsonschema` on every description and every bad input.
 """
+
+from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -37,6 +39,45 @@ class Check(Protocol):
 
     def __call__(self, value: Any, holder: Map | Seq, at: Any, report: Report, /) -> bool:
         """Return True if the value is right; else there is a finding. What is broken inside it is dropped from it."""
+
+
+_ANY: dict[type, Check | None] = dict.fromkeys((Map, Seq, int, Decimal, bool, str, type(None)))
+_checks: dict[ValueShape, ShapeCheck] = {}
+
+
+def check_shape(value: Map, place: Place, report: Report) -> bool:
+    """Return True if a file has the shape of a place (`DEVICE` or `PART`); findings go to the report."""
+    return not report.full and check_of(place.shape)(value, value, None, report)
+
+
+def check_of(shape: ValueShape) -> ShapeCheck:
+    """Return the check for a shape; it is built once."""
+    if shape not in _checks:
+        _checks[shape] = _build(shape)
+    return _checks[shape]
+
+
+def _build(shape: ValueShape) -> ShapeCheck:
+    checks: dict[type, Check | None] = {}
+    for kind in shape.kinds:
+        for python_type, check in _by_python_type(kind):
+            checks.setdefault(python_type, check)
+    return ShapeCheck(shape, checks or _ANY)
+
+
+def _by_python_type(kind: Kind) -> Iterator[tuple[type, Check | None]]:
+    """Yield the Python types of a kind of value, each with its check; None if every value is right."""
+    if isinstance(kind, Place):
+        yield Map, MappingCheck(kind)
+    elif isinstance(kind, Items):
+        yield Seq, ListCheck(check_of(kind.item), kind.least)
+    elif isinstance(kind, Text):
+        yield str, TextCheck(kind) if kind.choices or kind.longest or kind.form else None
+    elif isinstance(kind, Whole):
+        bounded = kind.choices or kind.least is not None or kind.greatest is not None
+        yield int, NumberCheck(kind) if bounded else None
+    else:
+        yield from dict.fromkeys(kind.types).items()
 
 
 @lru_cache(maxsize=256)
@@ -149,45 +190,6 @@ class NumberCheck:
             message, hint = f"{value} is out of bounds: {bounds}", "correct the number"
         report.error("wrong-choice", message, holder.span(at), hint)
         return False
-
-
-_ANY: dict[type, Check | None] = dict.fromkeys((Map, Seq, int, Decimal, bool, str, type(None)))
-_checks: dict[ValueShape, ShapeCheck] = {}
-
-
-def check_shape(value: Map, place: Place, report: Report) -> bool:
-    """Return True if a file has the shape of a place (`DEVICE` or `PART`); findings go to the report."""
-    return not report.full and check_of(place.shape)(value, value, None, report)
-
-
-def check_of(shape: ValueShape) -> ShapeCheck:
-    """Return the check for a shape; it is built once."""
-    if shape not in _checks:
-        _checks[shape] = _build(shape)
-    return _checks[shape]
-
-
-def _build(shape: ValueShape) -> ShapeCheck:
-    checks: dict[type, Check | None] = {}
-    for kind in shape.kinds:
-        for python_type, check in _by_python_type(kind):
-            checks.setdefault(python_type, check)
-    return ShapeCheck(shape, checks or _ANY)
-
-
-def _by_python_type(kind: Kind) -> Iterator[tuple[type, Check | None]]:
-    """Yield the Python types of a kind of value, each with its check; None if every value is right."""
-    if isinstance(kind, Place):
-        yield Map, MappingCheck(kind)
-    elif isinstance(kind, Items):
-        yield Seq, ListCheck(check_of(kind.item), kind.least)
-    elif isinstance(kind, Text):
-        yield str, TextCheck(kind) if kind.choices or kind.longest or kind.form else None
-    elif isinstance(kind, Whole):
-        bounded = kind.choices or kind.least is not None or kind.greatest is not None
-        yield int, NumberCheck(kind) if bounded else None
-    else:
-        yield from dict.fromkeys(kind.types).items()
 
 
 class ListCheck:

@@ -1,7 +1,7 @@
 """Passive listening: shows what masters and devices exchange, from a capture or a line, with names and units.
 
-- `captures.py` opens a capture and returns its chunks: it reads pcap and pcapng, writes pcapng, takes packets apart,
-  and joins the segments of a connection.
+- `captures.py` opens a capture and returns its chunks: it takes packets apart, and joins the segments of a connection.
+  `packet_files.py` reads pcap and pcapng, and writes pcapng.
 - `chunks.py` has what all sources give, listens on a serial line, reads lines of a log, and cuts bytes into frames
   where only a check tells where a frame ends.
 - A family's `lines.py` has its kinds of chunks (`KINDS`) and ports (`PORTS`), reads a line of a log (`chunk_of_text`),

@@ -1,4 +1,4 @@
-"""Our files: those in an output folder that a manifest records or that have our head, and the contents of new ones.
+"""The files that are ours in an output folder, by their manifests and heads; and the contents of new ones.
 
 `manifest/<device>.json` names the files of each target of a device with their checksums, and records the version of the
 description with the digest of its facts. What is vendored lies flat, beside `<device>.manifest.json`. While a run
@@ -175,6 +175,9 @@ def _files(files: Mapping[str, Any], pending: Mapping[str, Any]) -> Iterator[tup
     """Yield paths with their recorded checksums."""
     for path, digest in files.items():
         yield path, (str(digest), str(pending[path])) if path in pending else (str(digest),)
+
+
+# Contents of files that are not written yet.
 
 
 class Contents(NamedTuple):

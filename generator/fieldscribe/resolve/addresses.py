@@ -14,7 +14,7 @@ from fieldscribe.language.numbers import parse_number, plain_number
 from fieldscribe.language.suggestions import suggest_interval
 from fieldscribe.model import NOWHERE, Message, Place
 from fieldscribe.resolve.bases import last_address
-from fieldscribe.resolve.bus import KEY_OF, SIGNAL, SPACE, Telegrams, telegram_of
+from fieldscribe.resolve.bus import KEY_OF, SIGNAL_SPACE, TELEGRAM_SPACE, Telegrams, telegram_of
 from fieldscribe.resolve.encodings import Encoding, low_first
 from fieldscribe.resolve.point_facts import ALONE, PointFacts
 from fieldscribe.resolve.scope import Scope
@@ -98,7 +98,7 @@ class Places:
         usual = "rw" if telegram_entry is None else _ACCESS[telegram_entry[0].direction]
         access = str(facts.get("access", usual))
         if telegram_entry is not None and not set(access) <= set(usual) and access != "none":
-            what = "signal of the message" if space == SIGNAL else "word of the telegram"
+            what = "signal of the message" if space == SIGNAL_SPACE else "word of the telegram"
             message = f"a {what} `{telegram_entry[0].name}` is {_VERBS[usual]} only"
             hint = f"write `access: {usual}`, or leave it out"
             self.report.error("wrong-choice", message, facts.span("access"), hint)
@@ -123,7 +123,7 @@ class Places:
 
     def _place(self, facts: PointFacts, encoding: Encoding, key: str) -> Place:
         """Return the place that `key` gives: the word with the highest bits or the first characters comes first."""
-        if encoding.space == SIGNAL:
+        if encoding.space == SIGNAL_SPACE:
             return self._signal(facts, encoding, key)
         last, raw = self._last(facts, encoding.space), self._written_address(facts, key)
         if last is None or raw is None:
@@ -149,7 +149,7 @@ class Places:
 
     def _signal(self, facts: PointFacts, encoding: Encoding, key: str) -> Place:
         """Return the place of a signal; its words are numbered when all signals of the message are known."""
-        telegram = telegram_of(self.scope, self.telegrams, facts, SIGNAL)
+        telegram = telegram_of(self.scope, self.telegrams, facts, SIGNAL_SPACE)
         raw = self._written_address(facts, key)
         if telegram is None or raw is None:
             return NOWHERE
@@ -164,14 +164,14 @@ class Places:
 
     def _words_per_frame(self, facts: PointFacts) -> int:
         """Return how many words of the point's telegram one frame carries; 0 if the telegram is not multiplexed."""
-        if facts.get("space") != SPACE:
+        if facts.get("space") != TELEGRAM_SPACE:
             return 0
         telegram_entry = self.telegrams.get(facts.group.get("telegram", ""))
         return 0 if telegram_entry is None else telegram_entry[1]
 
     def _last(self, facts: PointFacts, space: str) -> int | None:
         """Return the last address of the space, or the last word of the telegram; None after a finding."""
-        if space != SPACE:
+        if space != TELEGRAM_SPACE:
             return self._last_address(facts)
         telegram = telegram_of(self.scope, self.telegrams, facts, space)
         return None if telegram is None else telegram.words - 1
@@ -374,7 +374,7 @@ def _base(facts: PointFacts) -> Mapping[str, Fraction]:
 
 def _outside(facts: PointFacts, key: str, address: int, last: int, *, single: bool) -> FactError:
     """Return the error for an address that the space does not have, or a word that the telegram does not have."""
-    if facts.get("space") == SPACE:
+    if facts.get("space") == TELEGRAM_SPACE:
         message = f"word {address} lies outside the telegram, whose words are 0..{last}"
         hint = "`at` counts the words of the whole telegram from 0; correct it, or `length` of the telegram"
     elif single and "base" in facts.group and address > last:

@@ -1,6 +1,6 @@
-"""Reads the facts under `bus`, with the telegrams: cyclic layouts of words, and the messages whose frames carry them.
+"""The facts under `bus`, and the telegrams: cyclic layouts of words, with the messages whose frames carry them.
 
-`FamilyReader` defines how a family reads its own keys.
+`pipeline` asks `bus_of` and `telegrams_of`. `FamilyReader` defines how a family reads its own keys.
 """
 
 import re
@@ -22,17 +22,19 @@ Messages = tuple[Message, ...]
 Telegrams = Mapping[str, tuple[Telegram, int]]
 """Telegrams by name, each with how many of its words one multiplexed frame carries (0: not multiplexed)."""
 
-SPACE = "telegram"
+TELEGRAM_SPACE = "telegram"
 """The space whose points are words of a telegram."""
-SIGNAL = "signal"
+SIGNAL_SPACE = "signal"
 """The space whose points are bits of a message; the words of these are a telegram of the same name."""
-KEY_OF = {SPACE: "telegram", SIGNAL: "message"}
+KEY_OF = {TELEGRAM_SPACE: "telegram", SIGNAL_SPACE: "message"}
 """What a group of such a space names."""
 
 _MULTIPLEXED = 256
 """The number of frames that a multiplexer can distinguish."""
 NO_BUS = Bus((), (0, 0), None, (), (), {}, {}, {}, {})
-_LAST_UNIT = 255
+_LAST_CODE = 255
+_TIME = re.compile(r"(about |at most )?(?:([0-9]{1,9})\.\.)?([0-9]{1,9}) (ms|s)\b.*")
+_NUMBER = re.compile(r"([0-9]{1,8})(?:\.([0-9]))?")
 
 
 class FamilyReader:
@@ -119,10 +121,6 @@ def bus_of(scope: Scope) -> Bus:
         family_facts=family_facts,
         line_numbers=dict([*_times(timing), *_settings(serial)]),
     )
-
-
-_TIME = re.compile(r"(about |at most )?(?:([0-9]{1,9})\.\.)?([0-9]{1,9}) (ms|s)\b.*")
-_NUMBER = re.compile(r"([0-9]{1,8})(?:\.([0-9]))?")
 
 
 def _times(timing: Mapping[str, str]) -> Iterator[tuple[str, int]]:
@@ -228,8 +226,8 @@ def code_list(scope: Scope, node: Map, key: str) -> tuple[int, ...]:
     items: Seq = node.get(key) or Seq(node.file, node.start)
     for place, item in enumerate(items):
         ends = interval(str(item), items.span(place), scope.report)
-        if ends is not None and not 0 <= ends[0] <= ends[1] <= _LAST_UNIT:
-            message = f"the code {item} lies outside 0..{_LAST_UNIT}"
+        if ends is not None and not 0 <= ends[0] <= ends[1] <= _LAST_CODE:
+            message = f"the code {item} lies outside 0..{_LAST_CODE}"
             scope.report.error("address-outside-space", message, items.span(place), "correct the code")
         elif ends is not None:
             codes.update(dict.fromkeys(range(ends[0], ends[1] + 1)))
@@ -265,13 +263,16 @@ def _setting(value: Any) -> dict[str, str]:
     return {str(value): str(value)}
 
 
+# Telegrams.
+
+
 def telegrams_of(scope: Scope, messages: tuple[Message, ...]) -> Telegrams:
     """Return all telegrams by name, in the order of the text."""
     result: dict[str, tuple[Telegram, int]] = {}
     by_name = {message.name: message for message in messages}
     for node in scope.unique("telegrams"):
         name = str(node["name"])
-        if SPACE not in scope.family.spaces:
+        if TELEGRAM_SPACE not in scope.family.spaces:
             family = scope.header["family"]
             message = f"the family {family} has no telegrams"
             scope.report.error("family-key", message, node.span("name"), "leave it out")
@@ -305,11 +306,11 @@ def telegram_of(scope: Scope, telegrams: Telegrams, facts: PointFacts, space: st
         if key not in group.broken:
             hint = f"add `{key}: …` to the group"
             span = group.span("space") if "space" in group else facts.span()
-            what = "words" if space == SPACE else "signals"
+            what = "words" if space == TELEGRAM_SPACE else "signals"
             text = f"the {what} of the space `{space}` belong to a {key}"
             scope.report.error("missing-key", text, span, hint)
         return None
-    of_signals = space == SIGNAL  # their words are not counted yet
+    of_signals = space == SIGNAL_SPACE  # their words are not counted yet
     known = {each: telegram for each, (telegram, _) in telegrams.items() if (telegram.words == 0) is of_signals}
     if name not in known:
         scope.unknown(key, name, group.span(key), list(known))

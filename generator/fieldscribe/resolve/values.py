@@ -1,4 +1,7 @@
-"""Reads numbers, bits and intervals from YAML values; reports findings instead of raising exceptions."""
+"""Numbers, intervals, bits in the numbering of a manual, and formulas, read from YAML values.
+
+A function that takes a `report` adds a finding and returns None; the others raise FactError, which holds the finding.
+"""
 
 import re
 from collections.abc import Collection, Mapping

@@ -1,6 +1,7 @@
 """Serves lines at TCP ports, serial ports, pseudo terminals and CAN buses, in one event loop.
 
-For tests: `with simulated("hitachi_l200") as drive:` runs one line a device, at a free port.
+The command line calls `serve` for each line. Tests say `with simulated("hitachi_l200") as drive:`, which serves one
+device on a line of its own, at a free port.
 """
 
 from __future__ import annotations
@@ -8,27 +9,25 @@ from __future__ import annotations
 import asyncio
 import errno
 import os
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
-
-from fieldscribe.diagnostics import UnclearError, can_package
-from fieldscribe.simulation.line import Line, Outcome, Stream
-
-if TYPE_CHECKING:
-    import can
 import threading
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
+from fieldscribe.diagnostics import UnclearError, can_package
 from fieldscribe.simulation.bench import Bench
-from fieldscribe.simulation.line import Fault, Trace
+from fieldscribe.simulation.line import Fault, Line, Outcome, Stream, Trace
 from fieldscribe.text import shortened
+
+if TYPE_CHECKING:
+    import can
 
 LOOPBACK = "127.0.0.1"
 _LINES = ("tcp", "serial", "can")
 _OF_LINE, _OF_BENCH = ("framing", "faults"), ("seed", "strict", "time_scale")
+"""The settings of `simulated` that belong to the line, and to all lines."""
 _QUIET = 0.02
 """Real seconds without a byte after which an incomplete request is given up."""
 _EXTENDED = 1 << 31
@@ -41,6 +40,43 @@ class Server:
 
     def __init__(self, url: str, close: Callable[[], None], *, port: int = 0, path: str = "") -> None:
         self.url, self.close, self.port, self.path = url, close, port, path
+
+
+async def serve(line: Line) -> Server:
+    """Serve a line at its place; without a host, a port is open only to this machine. Raises UnclearError."""
+    if line.on == "serial":
+        return await serve_serial(line, line.at, line.speed)
+    if line.on == "can":
+        interface, colon, channel = (line.at or f"virtual:{line.name}").partition(":")
+        if not colon:
+            raise UnclearError(f"`{line.at}` is no CAN bus", "name it as python-can does, such as socketcan:can0")
+        return await serve_can(line, interface, channel)
+    host, _, port = line.at.rpartition(":")
+    if not (port or "0").isdecimal() or len(port) > 5 or int(port or 0) > 0xFFFF:
+        raise UnclearError(f"`{line.at}` is no TCP port", "write [HOST:]PORT, such as 5020")
+    return await serve_tcp(line, host.strip("[]") or LOOPBACK, int(port or 0))
+
+
+async def serve_tcp(line: Line, host: str = LOOPBACK, port: int = 0) -> Server:
+    """Serve a line at a TCP port; 0 chooses a free one. Raises UnclearError if the port is not available."""
+    ends: set[_End] = set()
+    try:
+        listening = await asyncio.get_running_loop().create_server(lambda: _End(line, ends), host, port)
+    except (OSError, OverflowError) as error:
+        # newer versions of Python tell no number for an address that no socket could have
+        number = (error.errno or errno.EADDRNOTAVAIL) if isinstance(error, OSError) else 0
+        taken = number == errno.EADDRINUSE
+        hint = "give another port, or 0 for any free one" if taken else "give an address of this machine, and a port"
+        reason = "it is taken" if taken else os.strerror(number) if number > 0 else str(error)
+        raise UnclearError(f"port {port} of {host} cannot be served: {reason}", hint) from None
+
+    def close() -> None:
+        listening.close()
+        for end in list(ends):
+            end.close()
+
+    port = listening.sockets[0].getsockname()[1]
+    return Server(f"tcp://{f'[{host}]' if ':' in host else host}:{port}", close, port=port)
 
 
 class _End(asyncio.Protocol):
@@ -117,43 +153,6 @@ class _End(asyncio.Protocol):
         writer: object = self._writer
         if outcome.drop and writer is self._reader:  # a serial port stays
             self.close()
-
-
-async def serve(line: Line) -> Server:
-    """Serve a line at its place; without a host, a port is open only to this machine. Raises UnclearError."""
-    if line.on == "serial":
-        return await serve_serial(line, line.at, line.speed)
-    if line.on == "can":
-        interface, colon, channel = (line.at or f"virtual:{line.name}").partition(":")
-        if not colon:
-            raise UnclearError(f"`{line.at}` is no CAN bus", "name it as python-can does, such as socketcan:can0")
-        return await serve_can(line, interface, channel)
-    host, _, port = line.at.rpartition(":")
-    if not (port or "0").isdecimal() or len(port) > 5 or int(port or 0) > 0xFFFF:
-        raise UnclearError(f"`{line.at}` is no TCP port", "write [HOST:]PORT, such as 5020")
-    return await serve_tcp(line, host.strip("[]") or LOOPBACK, int(port or 0))
-
-
-async def serve_tcp(line: Line, host: str = LOOPBACK, port: int = 0) -> Server:
-    """Serve a line at a TCP port; 0 chooses a free one. Raises UnclearError if the port is not available."""
-    ends: set[_End] = set()
-    try:
-        listening = await asyncio.get_running_loop().create_server(lambda: _End(line, ends), host, port)
-    except (OSError, OverflowError) as error:
-        # newer versions of Python tell no number for an address that no socket could have
-        number = (error.errno or errno.EADDRNOTAVAIL) if isinstance(error, OSError) else 0
-        taken = number == errno.EADDRINUSE
-        hint = "give another port, or 0 for any free one" if taken else "give an address of this machine, and a port"
-        reason = "it is taken" if taken else os.strerror(number) if number > 0 else str(error)
-        raise UnclearError(f"port {port} of {host} cannot be served: {reason}", hint) from None
-
-    def close() -> None:
-        listening.close()
-        for end in list(ends):
-            end.close()
-
-    port = listening.sockets[0].getsockname()[1]
-    return Server(f"tcp://{f'[{host}]' if ':' in host else host}:{port}", close, port=port)
 
 
 async def serve_serial(line: Line, path: str = "", baud: int = 0) -> Server:
@@ -260,6 +259,9 @@ class _CanEnd:
             self._bus.send(message)
         except (can.CanError, ValueError):  # nobody acknowledges the frame: a device would try again
             return
+
+
+# Devices for tests.
 
 
 class Simulated:

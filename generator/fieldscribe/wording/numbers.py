@@ -1,6 +1,6 @@
-"""Texts of exact numbers, addresses, bytes, words, and parts of dates; and of units and replies that do not fit.
+"""Texts of exact numbers, of the parts of dates, and of what frames hold: addresses, bytes, words, units, checksums.
 
-The rule from the raw numbers of a point to its values is here, too.
+`fixed_rule` and `value_multiple` tell how raw numbers become values where no other point decides it.
 """
 
 from collections.abc import Mapping, Sequence
@@ -47,7 +47,7 @@ def exact(numerator: int, denominator: int = 1) -> str:
 
 
 def number_text(number: Fraction) -> str:
-    """Return an exact fraction as text, as `exact` does."""
+    """Return a fraction as text, as `exact` does."""
     return exact(number.numerator, number.denominator)
 
 
@@ -82,29 +82,6 @@ def plus_text(start: str, numerator: int, denominator: int) -> str:
     return f"{start} {'-' if numerator < 0 else '+'} {exact(abs(numerator), denominator)}"
 
 
-def fixed_rule(point: Point) -> Line | None:
-    """Return the rule from raw numbers to values; None if it depends on other points or is unknown."""
-    if point.scale is None:
-        return SAME if point.generated or not point.unit.symbol else None
-    return None if point.fixed_scale is None else value_line(point.fixed_scale)
-
-
-def value_multiple(factor: Factor, point: Point) -> Fraction | None:
-    """Return k such that `raw * slope + intercept == k * value` for the factor's point; None if there is none."""
-    rule = fixed_rule(point)
-    if rule is None or point.info.floating:
-        return None
-    multiply, add, divide = rule
-    return Fraction(factor.slope * divide, multiply) if factor.intercept * multiply == factor.slope * add else None
-
-
-def _decimal(count: int, places: int) -> str:
-    """Return a count of 10^-places as a decimal."""
-    digits = str(abs(count)).rjust(places + 1, "0")
-    point = "." if places else ""
-    return f"{'-' if count < 0 else ''}{digits[: len(digits) - places]}{point}{digits[len(digits) - places :]}"
-
-
 def shortest(count: int, places: int) -> str:
     """Return a count of 10^-places as a decimal, without zeros at its end."""
     whole, rest = divmod(abs(count), 10**places)
@@ -122,12 +99,38 @@ def decimal_places(denominator: int) -> int | None:
     return max(twos, fives) if rest == 1 else None
 
 
+def _decimal(count: int, places: int) -> str:
+    """Return a count of 10^-places as a decimal."""
+    digits = str(abs(count)).rjust(places + 1, "0")
+    point = "." if places else ""
+    return f"{'-' if count < 0 else ''}{digits[: len(digits) - places]}{point}{digits[len(digits) - places :]}"
+
+
+def fixed_rule(point: Point) -> Line | None:
+    """Return the rule from raw numbers to values; None if it depends on other points or is unknown."""
+    if point.scale is None:
+        return SAME if point.generated or not point.unit.symbol else None
+    return None if point.fixed_scale is None else value_line(point.fixed_scale)
+
+
+def value_multiple(factor: Factor, point: Point) -> Fraction | None:
+    """Return k such that `raw * slope + intercept == k * value` for the factor's point; None if there is none."""
+    rule = fixed_rule(point)
+    if rule is None or point.info.floating:
+        return None
+    multiply, add, divide = rule
+    return Fraction(factor.slope * divide, multiply) if factor.intercept * multiply == factor.slope * add else None
+
+
+# Dates.
+
+
 def parts_text(layout: Text) -> str:
     """Return the places of the parts: `year from 2000 in bits 15..8 of word 1, month in bits 7..0 of word 1`."""
-    return ", ".join(f"{name_text(part)} in {place_text(part)}" for part in layout.parts)
+    return ", ".join(f"{_part_name(part)} in {_part_place(part)}" for part in layout.parts)
 
 
-def name_text(part: DatePart) -> str:
+def _part_name(part: DatePart) -> str:
     """Return a part with its base."""
     if part.name == "weekday":
         first, number = ("monday", part.base - _MONDAY) if part.base >= _MONDAY else ("sunday", part.base)
@@ -135,11 +138,14 @@ def name_text(part: DatePart) -> str:
     return f"{part.name} from {part.base}" if part.base else part.name
 
 
-def place_text(part: DatePart) -> str:
+def _part_place(part: DatePart) -> str:
     """Return the place of a part: `word 2`, or `bits 6..0 of word 1`."""
     high, low = part.bits
     bits = "" if part.width == 16 else f"bits {high}..{low} of " if high > low else f"bit {low} of "
     return f"{bits}word {part.word + 1}"
+
+
+# Frames.
 
 
 def units_text(bus: Bus) -> str:

@@ -1,7 +1,7 @@
-"""Modbus frames, requests and replies. Pure functions, no I/O.
+"""Modbus frames, requests and replies: built, and parsed from any bytes. Pure functions, no I/O.
 
-A PDU is wrapped for a serial line or for TCP, unwrapped and measured; requests are built, and bytes parsed as a request
-or as its reply.
+The first half wraps a PDU for a serial line or for TCP, unwraps and measures it. The second half builds requests, and
+reads a PDU as a request or as the reply to one.
 """
 
 from dataclasses import dataclass
@@ -132,6 +132,9 @@ def values_in(function: int, data: bytes) -> tuple[int, ...]:
     if function in BIT_LISTS:
         return tuple(data[at >> 3] >> (at & 7) & 1 for at in range(8 * len(data)))
     return words_in(data)
+
+
+# Requests and replies.
 
 
 @dataclass(frozen=True, slots=True)

@@ -47,6 +47,9 @@ def write_task(width: int, *, array: bool, keep: bool) -> int:
     return _WRITE_TASKS[width, array][keep]
 
 
+# Links, and the words of a telegram.
+
+
 @dataclass(frozen=True, slots=True)
 class Link:
     """The settings of a link: the words of the parameter part and of process data.
@@ -140,6 +143,9 @@ def split(words: tuple[int, ...], link: Link, *, request: bool) -> Split:
     return Split(words[:size], words[size:], left >= SHORT and (left <= 4 or not request))
 
 
+# The bytes of a telegram.
+
+
 @dataclass(frozen=True, slots=True)
 class Unwrapped:
     """Bytes with the words of their telegram; `words` is None if they cannot be read.
@@ -152,31 +158,6 @@ class Unwrapped:
     unit: int | None
     words: tuple[int, ...] | None
     flaws: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
-class Request:
-    """A request: a task for one element of a parameter, with a value of `width` words."""
-
-    unit: int
-    task: int
-    parameter: int = 0
-    index: int = 0
-    width: int = 0
-    value: int = 0
-    words: tuple[int, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
-class Reply:
-    """A response; `error` only if `status` is refused."""
-
-    status: str
-    response: int = 0
-    width: int = 0
-    value: int = 0
-    error: int = 0
-    words: tuple[int, ...] = ()
 
 
 def check_byte(data: bytes) -> int:
@@ -220,6 +201,34 @@ def bare_words(data: bytes) -> Unwrapped:
     """Return the words of a single part."""
     whole = len(data) > 0 and len(data) % 2 == 0
     return Unwrapped(data, None, words_in(data) if whole else None, () if whole else ("no_words",))
+
+
+# Requests and responses.
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """A request: a task for one element of a parameter, with a value of `width` words."""
+
+    unit: int
+    task: int
+    parameter: int = 0
+    index: int = 0
+    width: int = 0
+    value: int = 0
+    words: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Reply:
+    """A response; `error` only if `status` is refused."""
+
+    status: str
+    response: int = 0
+    width: int = 0
+    value: int = 0
+    error: int = 0
+    words: tuple[int, ...] = ()
 
 
 def request_in(unit: int, part: Part, link: Link, words: tuple[int, ...]) -> Request:

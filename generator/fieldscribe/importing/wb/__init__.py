@@ -68,6 +68,79 @@ _SHOWN = {
 """Keys that are read elsewhere, or about the gateway and not the device."""
 
 
+def draft_template(path: Path, device: str) -> WholeDraft:
+    """Draft a device from a template. Raises UnreadableError, OSError."""
+    template = read_template(path)
+    body = template["device"]
+    texts = Texts(body.get("translations"))
+    rows = list(_rows(body, texts))
+    if not 0 < len(rows) <= MOST_ROWS:
+        raise UnreadableError(
+            f"the template has {len(rows)} channels and parameters", hint=f"1 to {MOST_ROWS} are read"
+        )
+    for row in rows:
+        row.read()
+    names, parameters = Names(), Parameters(rows, texts)
+    for row in rows:
+        title = row.key if row.is_parameter and row.key else row.point.title
+        row.point.name = names.give(snake(title, "point"), "" if row.point.wire is None else str(row.point.wire))
+    for row in rows:
+        if row.labels:
+            row.point.facts["enum"] = labels_text(row.labels, texts)
+        parameters.set_condition(row)
+    groups = _groups(body, [row for row in rows if not row.is_choice], texts)
+    groups += _identification(template, names)
+    for group in groups:
+        group.facts |= _base_of(body) | _first_firmware(template)
+    title = texts.english(str(template.get("title") or body.get("name") or template.get("device_type", device)))
+    checksum = sha256(read_regular(path, MOST_BYTES).data).hexdigest()
+    head = Head(
+        device,
+        [Document(path.name, checksum, "template", f"{path.name} of wb-mqtt-serial", has_lines=False)],
+        _FAMILY.name,
+        model=title,
+        title=title,
+        facts=["certainty: imported"],
+        kind="a template",
+        blocks=[*parameters.blocks, *_blocks_of(template, parameters)],
+        bus=_bus_of(body, groups),
+    )
+    compilable(groups, head, with_head=True)  # a point that is a view of another is not folded
+    return WholeDraft(folded(groups, head.blocks), head)
+
+
+def _rows(body: Mapping[str, Any], texts: Texts) -> Iterator[Row]:
+    """Yield the parameters and the channels of a device."""
+    parameters = body.get("parameters")
+    if isinstance(parameters, dict):
+        parameters = [{"id": key} | item for key, item in parameters.items() if isinstance(item, dict)]
+    yield from (Row(item, texts, is_parameter=True) for item in objects(parameters))
+    for item in objects(body.get("channels")):
+        yield from (Row(part, texts, is_parameter=False) for part in components_of(item))
+
+
+def _groups(body: Mapping[str, Any], rows: Sequence[Row], texts: Texts) -> list[DraftGroup]:
+    """Return the points in the groups of the template, one for each space."""
+    listed = objects(body.get("groups"))
+    titles = {str(group.get("id")): str(group.get("title") or group.get("id")) for group in listed}
+    groups: dict[tuple[str, str], DraftGroup] = {}
+    for row in rows:
+        key = str(row.item.get("group") or ("Parameters" if row.is_parameter else "Channels"))
+        title, space = titles.get(key, key), row.point.space
+        english = texts.english(title)
+        group = groups.setdefault(
+            (key, space), DraftGroup(english, space, "", document="template", titles=texts.others(title))
+        )
+        group.points.append(row.point)
+    names = Names()
+    for group in groups.values():
+        group.name = names.give(snake(group.title, "points"), group.space)
+    return list(groups.values())
+
+
+# Facts of the whole device.
+
+
 def _bus_of(body: Mapping[str, Any], groups: Iterable[DraftGroup]) -> list[str]:
     """Return the bus, with the largest requests and with times."""
     spaces = {group.space for group in groups} | {_space(item) for item in objects(body.get("setup"))}
@@ -188,6 +261,9 @@ def _set_up(body: Mapping[str, Any], parameters: Parameters) -> DraftBlock:
     return block
 
 
+# Rows that repeat.
+
+
 def folded(groups: Sequence[DraftGroup], blocks: Sequence[DraftBlock]) -> list[DraftGroup]:
     """Return the groups, each followed by those of its repetitions; conditions use the new names of points."""
     points, names, renamed = Names(), Names(), dict[str, str]()
@@ -280,73 +356,3 @@ def _array_row(run: dict[int, DraftPoint], place: int, points: Names, renamed: d
     if lines:
         point.facts["each"] = "".join(lines)
     return point
-
-
-def draft_template(path: Path, device: str) -> WholeDraft:
-    """Draft a device from a template. Raises UnreadableError, OSError."""
-    template = read_template(path)
-    body = template["device"]
-    texts = Texts(body.get("translations"))
-    rows = list(_rows(body, texts))
-    if not 0 < len(rows) <= MOST_ROWS:
-        raise UnreadableError(
-            f"the template has {len(rows)} channels and parameters", hint=f"1 to {MOST_ROWS} are read"
-        )
-    for row in rows:
-        row.read()
-    names, parameters = Names(), Parameters(rows, texts)
-    for row in rows:
-        title = row.key if row.is_parameter and row.key else row.point.title
-        row.point.name = names.give(snake(title, "point"), "" if row.point.wire is None else str(row.point.wire))
-    for row in rows:
-        if row.labels:
-            row.point.facts["enum"] = labels_text(row.labels, texts)
-        parameters.set_condition(row)
-    groups = _groups(body, [row for row in rows if not row.is_choice], texts)
-    groups += _identification(template, names)
-    for group in groups:
-        group.facts |= _base_of(body) | _first_firmware(template)
-    title = texts.english(str(template.get("title") or body.get("name") or template.get("device_type", device)))
-    checksum = sha256(read_regular(path, MOST_BYTES).data).hexdigest()
-    head = Head(
-        device,
-        [Document(path.name, checksum, "template", f"{path.name} of wb-mqtt-serial", has_lines=False)],
-        _FAMILY.name,
-        model=title,
-        title=title,
-        facts=["certainty: imported"],
-        kind="a template",
-        blocks=[*parameters.blocks, *_blocks_of(template, parameters)],
-        bus=_bus_of(body, groups),
-    )
-    compilable(groups, head, with_head=True)  # a point that is a view of another is not folded
-    return WholeDraft(folded(groups, head.blocks), head)
-
-
-def _rows(body: Mapping[str, Any], texts: Texts) -> Iterator[Row]:
-    """Yield the parameters and the channels of a device."""
-    parameters = body.get("parameters")
-    if isinstance(parameters, dict):
-        parameters = [{"id": key} | item for key, item in parameters.items() if isinstance(item, dict)]
-    yield from (Row(item, texts, is_parameter=True) for item in objects(parameters))
-    for item in objects(body.get("channels")):
-        yield from (Row(part, texts, is_parameter=False) for part in components_of(item))
-
-
-def _groups(body: Mapping[str, Any], rows: Sequence[Row], texts: Texts) -> list[DraftGroup]:
-    """Return the points in the groups of the template, one for each space."""
-    listed = objects(body.get("groups"))
-    titles = {str(group.get("id")): str(group.get("title") or group.get("id")) for group in listed}
-    groups: dict[tuple[str, str], DraftGroup] = {}
-    for row in rows:
-        key = str(row.item.get("group") or ("Parameters" if row.is_parameter else "Channels"))
-        title, space = titles.get(key, key), row.point.space
-        english = texts.english(title)
-        group = groups.setdefault(
-            (key, space), DraftGroup(english, space, "", document="template", titles=texts.others(title))
-        )
-        group.points.append(row.point)
-    names = Names()
-    for group in groups.values():
-        group.name = names.give(snake(group.title, "points"), group.space)
-    return list(groups.values())

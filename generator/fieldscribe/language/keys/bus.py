@@ -50,11 +50,11 @@ _SETTING = ValueShape(
     by(forms.ANY, ValueShape("What the code means.", [4800], Text(80), Whole())),
 )
 CODES = by(forms.NUMBER, CODE.shape, least=1)
-
-_SAID = by(
+_BY_POINT = by(
     forms.ANY, ValueShape("The value in the unit, or the name of an enum entry.", [50.0], Text(80), NUMBER, BOOLEAN)
 )
-_VALUE = (Text(), NUMBER, Items(PRINTED_NUMBER), NOTHING)
+"""Values by point, as a worked example or a step gives them."""
+_PRINTED_VALUE = (Text(), NUMBER, Items(PRINTED_NUMBER), NOTHING)
 
 KEYS = (
     Key("units", BUS, "The unit addresses that a device can have.", required=True).takes(["1..32"], Text(40)),
@@ -157,7 +157,7 @@ KEYS = (
         STEP,
         "Values to write, by point: as under `says` of a worked example. Points of one step follow each other. A raw "
         "number may be a formula of arguments.",
-    ).takes([{"A020": 50.0}, {"slave.raw": "unit"}], _SAID),
+    ).takes([{"A020": 50.0}, {"slave.raw": "unit"}], _BY_POINT),
     Key(
         "words",
         STEP,
@@ -168,7 +168,7 @@ KEYS = (
         Items(ValueShape("A number, or a formula of an argument.", ["65535 - unit", 2], Whole(), Text(200)), 1),
     ),
     Key("wait", STEP, "Values that points must reach before the next step.", needs=("within",)).takes(
-        [{"result": 0}], _SAID
+        [{"result": 0}], _BY_POINT
     ),
     Key("within", STEP, "The longest time to wait.", needs=("wait",)).takes(["2 s"], Text(form=forms.TIME)),
     Key("when", STEP, "The step is skipped if this is false: a condition, written like `when` of a point.").takes(
@@ -186,10 +186,10 @@ KEYS = (
         ["05 06 10 28 01 F4 0C 91"], Text(1200, forms.BYTES)
     ),
     Key("says", FRAME, "What the frame means: values by point (code or name), or raw numbers (`P0700.raw: 2`).").takes(
-        [{"A020": 50.0}], _SAID
+        [{"A020": 50.0}], _BY_POINT
     ),
     Key("with", FRAME, "The values of other points that values under `says` depend on, by point.").takes(
-        [{"P2000": 50.0, "P2009": 0}], _SAID
+        [{"P2000": 50.0, "P2009": 0}], _BY_POINT
     ),
     Key("error", FRAME, "The exception code or error value of an answer that refuses.").takes([17], Whole(0, 65535)),
     Key("id", ERRATUM, "A name that is never reused.", required=True).takes(["f004_wire_decimal"], Text(80, forms.ID)),
@@ -210,14 +210,14 @@ KEYS = (
     ).takes(
         [{"wire": 4219}, "no address"],
         Text(1000),
-        by(forms.ANY, ValueShape("The printed value.", [4219], *_VALUE), least=1),
+        by(forms.ANY, ValueShape("The printed value.", [4219], *_PRINTED_VALUE), least=1),
     ),
     Key(
         "taken", ERRATUM, "What was taken instead: the same keys with the right values, or a sentence.", required=True
     ).takes(
         [{"wire": 4119}, "documented only"],
         Text(1000),
-        by(forms.ANY, ValueShape("The value taken.", [4119], *_VALUE), least=1),
+        by(forms.ANY, ValueShape("The value taken.", [4119], *_PRINTED_VALUE), least=1),
     ),
     Key("why", ERRATUM, "Why it was taken.", required=True).takes(["Both neighbours say so."], Text(2000)),
     Key("certainty", ERRATUM, "How sure that is: `certain`, `likely` or `unknown`.", required=True).takes(

@@ -1,4 +1,4 @@
-"""The shapes of values that several keys share, and the places where keys stand, in the order of KEYS.md."""
+"""The places where keys stand, in the order of KEYS.md; before them the shapes of values that several keys share."""
 
 from fieldscribe.language.keys import forms
 from fieldscribe.schema_types import NOTHING, NUMBER, Items, Place, Text, ValueShape, Whole, by, one_of
@@ -52,6 +52,7 @@ SEVERAL = Items(ValueShape("A number, or several as `11..14`.", [7, "11..14"], W
 WORD_ORDER = one_of("high first", "low first")
 DIRECTION = one_of("request", "response", "cyclic")
 
+# The places, in the order of KEYS.md.
 
 _PRIVATE = {forms.PRIVATE: ANYTHING}
 

@@ -102,9 +102,6 @@ def runtime(device: Device, *, tests: bool = True, frames: FramesPart = "all") -
         yield f"c/{name}", f"c/runtime/{name}"
 
 
-__all__ = ["device_name_taken", "identifiers", "outputs", "runtime"]
-
-
 def device_name_taken(name: str) -> str:
     """Return why no header may have that name; empty if it may."""
     return f"would make a header `{name}.h`, which hides the one of the C library" if name in _HEADERS else ""

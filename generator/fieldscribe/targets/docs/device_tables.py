@@ -1,6 +1,6 @@
-"""The tables of a device other than those of points, in the form of a page.
+"""The tables of a device other than those of points, for a page in any form: Markdown or HTML.
 
-The bus section has functions, exceptions, serial settings, timing, gaps and commands.
+The bus section has functions, exceptions, messages, telegrams, serial settings, timing and commands.
 """
 
 from collections.abc import Mapping
@@ -194,6 +194,9 @@ def codes(device: Device, form: Form) -> str:
                 rows.append((sharers, numbers, form.code(special.name), form.cell(title), form.cell(remarks)))
                 sharers = ""
     return form.by_rows(("Codes of", "Raw", "Name", "Title", "Remarks"), rows)
+
+
+# The bus section.
 
 
 class BusView(NamedTuple):

@@ -25,7 +25,7 @@ from fieldscribe.targets.docs.cells import (
 )
 from fieldscribe.targets.docs.device_tables import BusView, bus_view
 from fieldscribe.targets.docs.points import GroupView, group_views
-from fieldscribe.targets.docs.sheet import wanted_text
+from fieldscribe.targets.docs.sheet_cells import wanted_text
 from fieldscribe.targets.docs.words import is_broken
 from fieldscribe.targets.identifiers import command as command_line
 

@@ -1,6 +1,6 @@
 """Python as this target writes it: the final identifiers of a device, and expressions laid out as formatters do.
 
-An expression is on one line if it fits, else it has a line for each item.
+An expression is on one line if it fits, else it has a line for each item. `live` uses the same identifiers.
 """
 
 import re
@@ -52,6 +52,9 @@ _ATTRIBUTE_TAKEN = _RESERVED | DEVICE_MEMBERS | HELPERS
 _WORD_TAKEN = _RESERVED | WORD_MEMBERS
 _PARAMETER_TAKEN = _RESERVED | {"link", "self", "transport", "unit", "variants"}
 _DIGITS = re.compile(r"([0-9]+)")
+
+
+# Identifiers.
 
 
 def attribute(name: str) -> str:
@@ -112,6 +115,9 @@ class Identifiers(ClassNames):
 def scope_of(device: Device, names: Identifiers) -> Scope:
     """Return the scope of a device in which nothing is used yet."""
     return Scope.of(device, names, attribute, "enums.")
+
+
+# Texts and expressions.
 
 
 def comment(text: str) -> str:

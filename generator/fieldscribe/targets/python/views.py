@@ -1,6 +1,7 @@
-"""The views of the enums module and of the points module.
+"""The contexts of the templates of the enums module and of the points module.
 
-The first has names for numbers, and words of flags; the second an attribute for each point, with its docstring.
+The first has classes of names for numbers, and of words of flags; the second an attribute for each point, with its
+docstring.
 """
 
 from __future__ import annotations
@@ -63,6 +64,9 @@ _KEEP = "`keep=True`"
 """The argument with which a program keeps a value over power-off."""
 LimitTexts = tuple[str, tuple[str, ...]]
 """The limits of a point as text, and their ends in code."""
+
+
+# The enums module.
 
 
 class EnumClass(NamedTuple):
@@ -187,6 +191,9 @@ def reader(flag: Flag, named: str) -> Node:
 
 def _sentence(text: str) -> str:
     return sentence(python_doc(text))
+
+
+# The points module.
 
 
 def points_context(device: Device, names: Identifiers, render: Render) -> dict[str, object]:

@@ -1,7 +1,7 @@
 """The call that creates a point, with all facts about it, and the class of points: profile, variants, commands.
 
-In a language, a call is laid out once for many points, and filled with the texts of each. Docstrings have sentences
-about points, named numbers and flags.
+The Python and TypeScript targets write these calls as text, laid out once for many points and filled with the texts of
+each; `live` evaluates them. Docstrings have sentences about points, named numbers and flags.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -212,6 +212,9 @@ def fields_of_texts(texts: tuple[str, ...], point: Point) -> PointFields:
     return PointFields(group, code or None, default or None, numbers, *several)
 
 
+# Texts of docstrings.
+
+
 def limits_text(point: Point, scope: Scope) -> str:
     """Return what may be written; empty for a point whose values have no range."""
     return range_text(point, scope.lowered.points) if point.writable and point.form in _WITH_RANGE else ""
@@ -262,6 +265,9 @@ def _kept(point: Point, scope: Scope, keep: str) -> str:
     if point.keeps == "choice":
         return f"{keep} keeps it and wears the EEPROM"
     return _KEEPS.get(point.keeps or "") or f"`{keeps(point, scope)}.send()` keeps it"
+
+
+# The class of points.
 
 
 def members(device: Device) -> dict[str, list[Point | dict[Variant, Point]]]:

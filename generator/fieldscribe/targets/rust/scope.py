@@ -1,7 +1,7 @@
-"""What the modules of this target share: the generated points of a device, and what its family adds.
+"""What the modules of this target share: the generated points of a device, and what a family adds to its crate.
 
-A family adds items of the crate other than points, and says how points travel on its bus. Facts of a shape are computed
-once.
+A family offers a `RustFamily`: items of the crate other than points, how points travel on its bus, and tables of the
+conformance program. Facts of a shape are computed once.
 """
 
 from __future__ import annotations
@@ -114,6 +114,9 @@ def _types_of(point: Point, enums: Mapping[str, str]) -> tuple[str, str]:
     return raw, raw if enum is None else enums[enum.name]
 
 
+# What a family adds.
+
+
 Tokens = tuple[str, ...]
 """The tokens of a row; a line may be broken between them."""
 
@@ -122,7 +125,6 @@ Needs = tuple[tuple[str, Tokens], ...]
 
 Way = tuple[str, str, Needs]
 """How a point travels: the kind of vector, the function of the runner, and its arguments."""
-
 
 END = ";\n"
 """The separator of the rows of a table; no row contains it."""

@@ -32,6 +32,9 @@ _SAFE = 1 << 53
 _PLAIN_KEY = re.compile(r"[A-Za-z_$][A-Za-z0-9_$]*")
 
 
+# The family.
+
+
 class TypeScriptFamily(NamedTuple):
     """What generated modules import for a family.
 
@@ -54,6 +57,9 @@ def in_typescript(device: Device) -> TypeScriptFamily:
     """Return the part `targets.calls` of the device's family."""
     part: TypeScriptFamily = family(device.family).part("targets.calls").IN_TYPESCRIPT
     return part._replace(makers={**_MAKERS, **part.makers})
+
+
+# Identifiers.
 
 
 _RESERVED = frozenset(
@@ -172,6 +178,9 @@ def identifiers(device: Device) -> Iterator[Names]:
         space, owner = f"TypeScript, the special codes of `{point.item}`", Owner("point", point.item)
         for special in point.specials if point.generated else ():
             yield Names(space, Owner("code", special.name, owner), (code_attribute(special),))
+
+
+# Expressions and comments.
 
 
 class Layout:

@@ -1,7 +1,7 @@
-"""The views of the points module, of the main module and of the module of enums.
+"""The contexts of the templates: of the points module and its types, of the main module, of the module of enums.
 
-A constant for each point and command, with its type; the class of the device, with its constructor's options; names for
-numbers, and words of flags.
+The first has a constant for each point and command; the main module the class of the device, with its constructor's
+options; the last names for numbers, and words of flags.
 """
 
 from collections.abc import Iterator, Mapping
@@ -45,12 +45,13 @@ TYPE_NAMES = ("ReadOnly", "ReadWrite", "Stored", "StoredWriteOnly", "WriteOnly")
 """The types of points, which differ in their methods."""
 _NUMBER_BITS = 32
 """Raw numbers of more bits are bigint."""
-_RUNTIME = "fieldscribe_runtime"
+_PACKAGE = "fieldscribe-runtime"
+_NAMESPACE = "fieldscribe_runtime"
+"""The name under which generated types import that package."""
 _KEEP = "`keep: true`"
 """The argument with which a program keeps a value over power-off."""
 _FIRST_LINE = ("name", "item", "at", "writeAt", "bits", "group", "code", "references")
 """The facts that identify a point, by their names in calls."""
-RUNTIME = "fieldscribe-runtime"
 
 
 def is_big(point: Point) -> bool:
@@ -59,63 +60,7 @@ def is_big(point: Point) -> bool:
     return bits > _NUMBER_BITS
 
 
-def type_of(point: Point, maker: str, scope: Scope) -> str:
-    """Return the type of a point: `ReadWrite<number, { limits: "maximumFrequency" }>`."""
-    numbers = numbers_of(point, scope)
-    value, taken = _values(point, numbers)
-    codes = [js_string(special.name) for special in point.specials]
-    if codes:
-        value = f"{value} | SpecialCode<{' | '.join(codes)}>"
-    written = [js_string(special.name) for special in point.specials if special.writable]
-    if written and point.writable:
-        taken = f"{taken} | SpecialCode<{' | '.join(written)}>"
-    facts = dict(_facts(point, numbers, scope))
-    shown = value if point.readable else taken
-    if taken != shown and point.writable:
-        facts["takes"] = taken
-    listed = "; ".join(f"{key}: {fact}" for key, fact in facts.items())
-    return f"{maker}<{shown}, {{ {listed} }}>" if listed else f"{maker}<{shown}>"
-
-
-def _values(point: Point, numbers: str) -> tuple[str, str]:
-    """Return the types that decoding returns and that encoding takes, both without special codes."""
-    open_numbers, big = f"{numbers} | UnknownNumber", is_big(point)
-    closed = point.enum is not None and point.enum.closed
-    forms = {
-        "bit": ("boolean", "boolean"),
-        "digits": (f"readonly ({open_numbers})[]", f"readonly {numbers}[]"),
-        "enum": (open_numbers, numbers if closed else open_numbers),
-        "flags": (numbers, f"{numbers} | {'bigint' if big else 'number'}"),
-        "integer": ("bigint", "bigint | number") if big else ("number", "number"),
-        "text": ("string", "string"),
-    }
-    if point.text is not None and point.text.parts:
-        date, time = f"{_RUNTIME}.DateParts", f"{_RUNTIME}.TimeParts"
-        held = {"date": (date,), "time": (time,)}.get(point.text.encoding, (date, time))
-        return " & ".join(held), " & ".join(held).replace(time, f"{_RUNTIME}.GivenTime")
-    return ("Date", "Date | number") if point.epoch else forms.get(point.form, ("number", "number"))
-
-
-def _facts(point: Point, numbers: str, scope: Scope) -> Iterator[tuple[str, str]]:
-    if is_big(point):
-        yield "raw", "bigint"
-    needs = dict.fromkeys(point.shape.scale_arguments)
-    if needs:
-        yield "scale", _union(needs, scope)
-    limits = {name for name in point.arguments if name not in needs} if point.writable else set()
-    if limits:
-        yield "limits", _union(dict.fromkeys(name for name in point.arguments if name in limits), scope)
-    if point.specials:
-        single = [special for special in point.specials if special.low == special.high]
-        if single:
-            named = "; ".join(f"{code_attribute(special)}: {js_string(special.name)}" for special in single)
-            yield "special", f"{{ {named} }}"
-    if numbers:
-        yield "names", f"typeof {numbers}"
-
-
-def _union(names: dict[str, None], scope: Scope) -> str:
-    return " | ".join(js_string(camel(name)) for name in names)
+# The points module.
 
 
 class Declared(NamedTuple):
@@ -236,11 +181,73 @@ class Points:
         return f"{text} The {open_text(doubts)}." if doubts else text
 
 
+def type_of(point: Point, maker: str, scope: Scope) -> str:
+    """Return the type of a point: `ReadWrite<number, { limits: "maximumFrequency" }>`."""
+    numbers = numbers_of(point, scope)
+    value, taken = _values(point, numbers)
+    codes = [js_string(special.name) for special in point.specials]
+    if codes:
+        value = f"{value} | SpecialCode<{' | '.join(codes)}>"
+    written = [js_string(special.name) for special in point.specials if special.writable]
+    if written and point.writable:
+        taken = f"{taken} | SpecialCode<{' | '.join(written)}>"
+    facts = dict(_facts(point, numbers, scope))
+    shown = value if point.readable else taken
+    if taken != shown and point.writable:
+        facts["takes"] = taken
+    listed = "; ".join(f"{key}: {fact}" for key, fact in facts.items())
+    return f"{maker}<{shown}, {{ {listed} }}>" if listed else f"{maker}<{shown}>"
+
+
+def _values(point: Point, numbers: str) -> tuple[str, str]:
+    """Return the types that decoding returns and that encoding takes, both without special codes."""
+    open_numbers, big = f"{numbers} | UnknownNumber", is_big(point)
+    closed = point.enum is not None and point.enum.closed
+    forms = {
+        "bit": ("boolean", "boolean"),
+        "digits": (f"readonly ({open_numbers})[]", f"readonly {numbers}[]"),
+        "enum": (open_numbers, numbers if closed else open_numbers),
+        "flags": (numbers, f"{numbers} | {'bigint' if big else 'number'}"),
+        "integer": ("bigint", "bigint | number") if big else ("number", "number"),
+        "text": ("string", "string"),
+    }
+    if point.text is not None and point.text.parts:
+        date, time = f"{_NAMESPACE}.DateParts", f"{_NAMESPACE}.TimeParts"
+        held = {"date": (date,), "time": (time,)}.get(point.text.encoding, (date, time))
+        return " & ".join(held), " & ".join(held).replace(time, f"{_NAMESPACE}.GivenTime")
+    return ("Date", "Date | number") if point.epoch else forms.get(point.form, ("number", "number"))
+
+
+def _facts(point: Point, numbers: str, scope: Scope) -> Iterator[tuple[str, str]]:
+    if is_big(point):
+        yield "raw", "bigint"
+    needs = dict.fromkeys(point.shape.scale_arguments)
+    if needs:
+        yield "scale", _union(needs, scope)
+    limits = {name for name in point.arguments if name not in needs} if point.writable else set()
+    if limits:
+        yield "limits", _union(dict.fromkeys(name for name in point.arguments if name in limits), scope)
+    if point.specials:
+        single = [special for special in point.specials if special.low == special.high]
+        if single:
+            named = "; ".join(f"{code_attribute(special)}: {js_string(special.name)}" for special in single)
+            yield "special", f"{{ {named} }}"
+    if numbers:
+        yield "names", f"typeof {numbers}"
+
+
+def _union(names: dict[str, None], scope: Scope) -> str:
+    return " | ".join(js_string(camel(name)) for name in names)
+
+
 def _command_type(made: Call) -> str:
     given = made.keywords.get("arguments")
     if isinstance(given, Mapping):
         return f"DeviceCommand<{{ {'; '.join(f'{js_string(str(name))}: number' for name in given)} }}>"
     return "DeviceCommand" if made.name == "Command" else "DeviceCommand<Record<never, number>>"
+
+
+# The main module.
 
 
 def device_context(device: Device, names: Identifiers) -> dict[str, object]:
@@ -252,14 +259,14 @@ def device_context(device: Device, names: Identifiers) -> dict[str, object]:
     imports: dict[str, list[str]] = {}
     for name in sorted({family.device, "defineDevice", *map(layout.maker, scope.used)}):
         module = family.modules.get(name)
-        imports.setdefault(f"{RUNTIME}/{module}" if module else RUNTIME, []).append(name)
+        imports.setdefault(f"{_PACKAGE}/{module}" if module else _PACKAGE, []).append(name)
     options = [(option(axis), " | ".join(map(js_string, values))) for axis, values in device.variants.items()]
     options += [(option(each.name), "number") for each in device.given]
     return {
         "name": names.device_class,
         "options": names.options,
         "base": family.device,
-        "base_module": f"{RUNTIME}/{family.modules[family.device]}",
+        "base_module": f"{_PACKAGE}/{family.modules[family.device]}",
         "imports": sorted(imports.items()),
         "facts": [layout.laid_out(node, 2, f"{camel(name)}: ") for name, node in facts.items()],
         "choices": [(f"{name}?", kind) for name, kind in options],
@@ -267,6 +274,9 @@ def device_context(device: Device, names: Identifiers) -> dict[str, object]:
         "device": js_string(device.id),
         "groups": " | ".join(map(js_string, readable_groups(device))) or "never",
     }
+
+
+# The module of enums.
 
 
 class Numbers(NamedTuple):
@@ -289,17 +299,15 @@ class WordOfFlags(NamedTuple):
 
 def enums_context(device: Device, names: Identifiers) -> dict[str, object]:
     """Return the context of the module: numbers in the order of the device, then words of flags by their points."""
-    numbers = [
-        Numbers(*_named(names.enum_class(enum.name), humanised(enum.name), enum.entries)) for enum in device.enums
-    ]
-    layout, words, known = Layout({}, camel), list[WordOfFlags](), {one.name for one in numbers}
+    numbers = [_named(names.enum_class(enum.name), humanised(enum.name), enum.entries) for enum in device.enums]
+    layout, words, known = Layout({}, camel), list[WordOfFlags](), {each.name for each in numbers}
     for point in device.points:
         if names.word_class(point):
             for flag, name in _fields(point, names):
                 if name not in known:
                     known.add(name)
                     title = humanised(flag.enum) if flag.enum else flag.title["en"]
-                    numbers.append(Numbers(*_named(name, title, flag.values)))
+                    numbers.append(_named(name, title, flag.values))
             words.append(_word(point, names, layout))
     return {"numbers": numbers, "words": words, "old_names": sorted(names.old_classes.items())}
 
@@ -310,14 +318,9 @@ def _fields(point: Point, names: Identifiers) -> Iterator[tuple[Flag, str]]:
             yield flag, name
 
 
-def _named(
-    name: str, title: str, entries: tuple[Entry, ...]
-) -> tuple[str, tuple[str, ...], tuple[tuple[str, str, str], ...]]:
-    return (
-        name,
-        _sentence(title),
-        tuple((upper(entry.name), str(entry.raw), js_comment(entry_text(entry))) for entry in entries),
-    )
+def _named(name: str, title: str, entries: tuple[Entry, ...]) -> Numbers:
+    shown = tuple((upper(entry.name), str(entry.raw), js_comment(entry_text(entry))) for entry in entries)
+    return Numbers(name, _sentence(title), shown)
 
 
 def _word(point: Point, names: Identifiers, layout: Layout) -> WordOfFlags:

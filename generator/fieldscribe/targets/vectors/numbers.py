@@ -1,6 +1,6 @@
-"""Vectors of numbers: raw numbers, their values in binary64, and their counts of 10^-decimals units.
+"""Vectors of numbers: raw numbers with their values in binary64, and with their counts of 10^-decimals units.
 
-And those of names, special codes, flags, bit groups and words.
+Then those of names, special codes, flags, bit groups and words. `collection` asks for all of a point.
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -35,10 +35,8 @@ _CODED = (0x1234_5678_9012_3456, 0x9999_9999_9999_9999, 0x0102_0304_8506_9708)
 _NARROW = (0x8000, 0x8001, 0xFFFD, 0x7FFE)
 """Samples of a signed word: the least number, negative odd numbers, a positive number."""
 
-
 Asked = tuple[str, Callable[[Any], str], Iterable[Any]]
 """A kind of vector, the function that answers what is asked, and what is asked."""
-
 
 Memory = dict[tuple[int, Ratio], "Conversions"]
 """The conversions so far, by shape and ratio."""
@@ -241,6 +239,9 @@ class _Numbers:
         return [raw for raw in raws if shape.least <= raw <= shape.greatest]
 
 
+# Names, codes and flags.
+
+
 def names(lines: Lines, shape: Shape, *, deep: bool) -> None:
     """Add vectors of the names of an enum, and of numbers without a name."""
     enum = shape.named_numbers
@@ -287,6 +288,9 @@ def fixed(lines: Lines, shape: Shape) -> None:
     """Add the vector of the bits that are always written as a constant."""
     if shape.fixed is not None:
         lines.add("fixed", shape.fixed.mask, shape.fixed.bits)
+
+
+# Bit groups and words.
 
 
 def bits(lines: Lines, encoding: PointEncoding) -> None:

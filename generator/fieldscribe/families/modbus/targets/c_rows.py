@@ -1,6 +1,8 @@
-"""Constant rows of the Modbus header: what says which device answers, and what selects a point before it is reached.
+"""Constant rows of the Modbus header, for calls of the runtime that follow a table.
 
-A call reads points in their order, and says which device answers, and which of its variants.
+`IdentifyView` has the rows that say which device answers, and which of its variants: points to read in their order,
+each with a function that tests their words. `Selections` has the rows of what selects a point before it is reached.
+`c.py` writes both.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -153,6 +155,9 @@ def _text_body(view: PointView, literals: Sequence[str]) -> Iterator[str]:
 def _status(tests: Sequence[str]) -> str:
     tested = f"({' || '.join(tests)})" if len(tests) > 1 else tests[0]
     return f"return {tested} ? FIELDSCRIBE_OK : FIELDSCRIBE_UNKNOWN_VALUE;"
+
+
+# What selects a point.
 
 
 @dataclass(slots=True)
