@@ -196,7 +196,6 @@ def camel(name: str) -> str:
 
 
 @lru_cache(maxsize=65536)
-@lru_cache(maxsize=65536)
 def humanised(name: str) -> str:
     """Return a name as words: `base_frequency` as `Base frequency`."""
     return name.replace("_", " ").capitalize()

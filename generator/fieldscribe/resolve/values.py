@@ -13,7 +13,7 @@ from fieldscribe.arithmetic.exact import pattern_of
 from fieldscribe.diagnostics import Report, Span
 from fieldscribe.language.formula.normal import MOST_BITS, evaluate, multiples
 from fieldscribe.language.formula.parser import parse_expression
-from fieldscribe.language.formula.syntax import FormulaError, UnknownNameError
+from fieldscribe.language.formula.syntax import FormulaError, NoSumError, UnknownNameError
 from fieldscribe.language.numbers import NumberError, parse_integer, parse_number
 from fieldscribe.language.suggestions import suggest_interval
 
@@ -153,17 +153,22 @@ def formula_value(text: str, names: Mapping[str, Fraction], span: Span, unknown:
         raise _unknown_or_wrong(error, span, unknown) from error
 
 
-def formula_multiples(text: str, names: Collection[str], span: Span, unknown: str) -> tuple[int, dict[str, int]]:
+def formula_multiples(
+    text: str, names: Collection[str], span: Span, unknown: str, example: str = "slot * 1000 + 200"
+) -> tuple[int, dict[str, int]]:
     """Return the constant and the factors of a sum of whole multiples of names. Raises FactError, as formula_value."""
     try:
         constant, factors = multiples(parse_expression(text), names)
+    except NoSumError as error:
+        hint = f"multiply a name by a whole number alone, such as `{example}`"
+        raise FactError("bad-formula", error.message, span.moved(error.column), hint) from error
     except FormulaError as error:
         raise _unknown_or_wrong(error, span, unknown) from error
     if any(max(map(int.bit_length, number.as_integer_ratio())) > MOST_BITS for number in (constant, *factors.values())):
         raise FactError("bad-formula", "the numbers of this formula are too large", span, "write smaller ones")
     if any(number.denominator != 1 for number in (constant, *factors.values())):
         message = f"`{text}` does not rise in whole steps"
-        raise FactError("bad-formula", message, span, "write it as a sum of multiples, such as `slot * 1000 + 200`")
+        raise FactError("bad-formula", message, span, f"write it as a sum of multiples, such as `{example}`")
     return int(constant), {name: int(factor) for name, factor in factors.items()}
 
 

@@ -153,7 +153,7 @@ def _identifier(scope: Scope, bus: Bus, node: Map) -> tuple[int, bool] | None:
     span = node.span("can_id")
     try:
         first, factors = formula_multiples(
-            str(node["can_id"]), ("unit",), span, "an identifier is a number, or a number + unit"
+            str(node["can_id"]), ("unit",), span, "an identifier is a number, or a number + unit", "320h + unit"
         )
     except FactError as error:
         error.report(scope.report)

@@ -13,6 +13,7 @@ from fieldscribe.language.formula.syntax import (
     FormulaError,
     Name,
     Negate,
+    NoSumError,
     Number,
     Part,
     Power10,
@@ -26,7 +27,6 @@ from fieldscribe.model import Factor, Linear
 MOST_BITS = 4096
 """The most bits of a numerator or denominator; larger results make no sense and cannot be printed."""
 SHAPE = "supported is number * product of points + number, where a factor may be (number * point + number)"
-_MULTIPLES = "multiply a name by a whole number alone, such as `slot * 1000 + 200`"
 LINEAR_ONLY = "only a rule that is linear in the variable can be inverted"
 
 
@@ -224,11 +224,13 @@ def multiples(expression: Expression, known: Collection[str]) -> tuple[Fraction,
             left, right = multiples(left_side, known), multiples(right_side, known)
             if op == "*" and not left[1]:
                 return _times(right, left[0])
-            if right[1] or (op == "/" and right[0] == 0):
-                raise FormulaError("this is no sum of multiples", column, _MULTIPLES)
+            if right[1]:
+                raise NoSumError(column)
+            if op == "/" and right[0] == 0:
+                raise ZeroDivisorError(column)
             return _times(left, right[0] if op == "*" else 1 / right[0])
         case Power10(Name() as exponent):
-            raise FormulaError("this is no sum of multiples", exponent.column, _MULTIPLES)
+            raise NoSumError(exponent.column)
     return evaluate(expression, {}), {}
 
 

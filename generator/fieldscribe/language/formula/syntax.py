@@ -21,6 +21,13 @@ class UnknownNameError(FormulaError):
     """A formula has a name that is not known where it stands."""
 
 
+class NoSumError(FormulaError):
+    """A formula is no sum of multiples of names."""
+
+    def __init__(self, column: int) -> None:
+        super().__init__("this is no sum of multiples", column)
+
+
 class ZeroDivisorError(FormulaError):
     """A formula divides by the constant 0."""
 
