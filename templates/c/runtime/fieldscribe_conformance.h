@@ -69,6 +69,8 @@ typedef struct fieldscribe_vector {
     size_t set_count;
     bool answered;
     bool differs;
+    const char *wrong; /* the field whose answer differs first, or what else does */
+    char given[48];    /* the answer that the code gives instead, if it is one number or text */
     uint16_t base; /* the addresses of the point count from here */
     size_t selecting; /* the number of steps of the script that select the point */
     size_t matched; /* pairs of a map that were found */
@@ -84,8 +86,6 @@ typedef struct fieldscribe_adapter {
     const char *point;
     void (*run)(fieldscribe_vector *v);
 } fieldscribe_adapter;
-
-
 
 typedef struct fieldscribe_suite {
     const char *device;
@@ -110,6 +110,15 @@ static bool fieldscribe_absent(const char *field)
     return strcmp(field, "-") == 0;
 }
 
+/* Notes a difference, and the first one by name: a field, or what else differs. */
+FIELDSCRIBE_ONCE void fieldscribe_differs(fieldscribe_vector *v, const char *what)
+{
+    if (!v->differs) {
+        v->differs = true;
+        v->wrong = what;
+    }
+}
+
 /* The field of this name in the line, else in the nearest set before it; an unknown name is a difference. */
 FIELDSCRIBE_ONCE const char *fieldscribe_field(fieldscribe_vector *v, const char *key)
 {
@@ -124,7 +133,7 @@ FIELDSCRIBE_ONCE const char *fieldscribe_field(fieldscribe_vector *v, const char
             }
         }
         if (left == 0U) {
-            v->differs = true;
+            fieldscribe_differs(v, key);
             return "-";
         }
         --left;
@@ -249,7 +258,9 @@ static const char *fieldscribe_pair(fieldscribe_vector *v, const char *key, cons
 FIELDSCRIBE_ONCE uint64_t fieldscribe_with(fieldscribe_vector *v, const char *name)
 {
     const char *const raw = fieldscribe_pair(v, "with", name);
-    v->differs = v->differs || raw == NULL;
+    if (raw == NULL) {
+        fieldscribe_differs(v, name);
+    }
     return raw != NULL ? fieldscribe_pattern(raw) : 0U;
 }
 
@@ -266,10 +277,19 @@ FIELDSCRIBE_ONCE bool fieldscribe_asks_of(fieldscribe_vector *v, const char *kin
     return fieldscribe_asks(v, kind) && fieldscribe_spells(fieldscribe_field(v, key), name);
 }
 
-FIELDSCRIBE_ONCE void fieldscribe_agree(fieldscribe_vector *v, bool same)
+/* An answer to a field of the line, or to what else is named so. */
+FIELDSCRIBE_ONCE void fieldscribe_agree_on(fieldscribe_vector *v, const char *what, bool same)
 {
     v->answered = true;
-    v->differs = v->differs || !same;
+    if (!same) {
+        fieldscribe_differs(v, what);
+    }
+}
+
+/* An answer that no single field has, such as the status of a call that must succeed. */
+FIELDSCRIBE_ONCE void fieldscribe_agree(fieldscribe_vector *v, bool same)
+{
+    fieldscribe_agree_on(v, "a check beside the fields", same);
 }
 
 #define FIELDSCRIBE_ANSWER_MS 900U
@@ -351,22 +371,38 @@ static inline bool fieldscribe_stream_receive(void *context, uint32_t millisecon
     return false;
 }
 
+/* Keeps the answer of the code, if it is the first that differs. */
+static inline void fieldscribe_gives_number(fieldscribe_vector *v, uint64_t bits)
+{
+    if (!v->differs) {
+        (void)snprintf(v->given, sizeof v->given, "%lld", (long long)bits);
+    }
+}
+
 FIELDSCRIBE_ONCE void fieldscribe_is_number(fieldscribe_vector *v, const char *key, uint64_t bits)
 {
     const char *const field = fieldscribe_field(v, key);
-    fieldscribe_agree(v, !fieldscribe_absent(field) && fieldscribe_pattern(field) == bits);
+    if (fieldscribe_absent(field) || fieldscribe_pattern(field) != bits) {
+        fieldscribe_gives_number(v, bits);
+        fieldscribe_differs(v, key);
+    }
+    v->answered = true;
 }
 
 /* The number of a field; 0 if it is absent, as when nothing was read. */
 FIELDSCRIBE_ONCE void fieldscribe_is_count(fieldscribe_vector *v, const char *key, uint64_t bits)
 {
-    fieldscribe_agree(v, fieldscribe_bits(v, key) == bits);
+    fieldscribe_agree_on(v, key, fieldscribe_bits(v, key) == bits);
 }
 
 FIELDSCRIBE_ONCE void fieldscribe_is_text(fieldscribe_vector *v, const char *key, const char *text)
 {
     const char *const field = fieldscribe_field(v, key);
-    fieldscribe_agree(v, fieldscribe_absent(field) ? text == NULL : text != NULL && fieldscribe_spells(field, text));
+    const bool same = fieldscribe_absent(field) ? text == NULL : text != NULL && fieldscribe_spells(field, text);
+    if (!same && !v->differs) {
+        (void)snprintf(v->given, sizeof v->given, "%.40s", text != NULL ? text : "-");
+    }
+    fieldscribe_agree_on(v, key, same);
 }
 
 /* Whether two numbers have the same bits, or are both NaN; a binary32 value is compared with the nearest one. */
@@ -377,21 +413,21 @@ FIELDSCRIBE_ONCE void fieldscribe_is_real_of(fieldscribe_vector *v, size_t size,
     const double a = size == sizeof narrow ? (double)narrow : wide;
     const bool nan_a = !(a < 0.0 || a >= 0.0);
     const bool nan_b = !(b < 0.0 || b >= 0.0);
-    fieldscribe_agree(v, (nan_a || nan_b) ? (nan_a && nan_b) : memcmp(&a, &b, sizeof a) == 0);
+    fieldscribe_agree_on(v, "value", (nan_a || nan_b) ? (nan_a && nan_b) : memcmp(&a, &b, sizeof a) == 0);
 }
 
 FIELDSCRIBE_ONCE void fieldscribe_is_bytes(fieldscribe_vector *v, const char *key, const void *bytes, size_t length)
 {
     uint8_t expected[FIELDSCRIBE_BYTES_MOST] = {0U};
     const size_t count = fieldscribe_bytes(v, key, expected, sizeof expected);
-    fieldscribe_agree(v, count == length && memcmp(expected, bytes, count) == 0);
+    fieldscribe_agree_on(v, key, count == length && memcmp(expected, bytes, count) == 0);
 }
 
 FIELDSCRIBE_ONCE void fieldscribe_is_words(fieldscribe_vector *v, const char *key, const uint16_t *words, size_t length)
 {
     static uint16_t expected[FIELDSCRIBE_VALUES_MOST];
     const size_t count = fieldscribe_numbers(v, key, expected, FIELDSCRIBE_VALUES_MOST);
-    fieldscribe_agree(v, count == length && count <= (size_t)FIELDSCRIBE_VALUES_MOST &&
+    fieldscribe_agree_on(v, key, count == length && count <= (size_t)FIELDSCRIBE_VALUES_MOST &&
         memcmp(expected, words, count * sizeof expected[0]) == 0);
 }
 
@@ -411,14 +447,14 @@ FIELDSCRIBE_ONCE void fieldscribe_untouched(fieldscribe_vector *v, const void *m
     while (at < size && bytes[at] == (uint8_t)FIELDSCRIBE_PATTERN) {
         ++at;
     }
-    fieldscribe_agree(v, at == size);
+    fieldscribe_agree_on(v, "memory beyond the result", at == size);
 }
 
 /* One more pair of a map. */
 FIELDSCRIBE_ONCE void fieldscribe_is_pair(fieldscribe_vector *v, const char *key, const char *name, uint64_t bits)
 {
     const char *const found = fieldscribe_pair(v, key, name);
-    fieldscribe_agree(v, found != NULL && fieldscribe_pattern(found) == bits);
+    fieldscribe_agree_on(v, name, found != NULL && fieldscribe_pattern(found) == bits);
     ++v->matched;
 }
 
@@ -426,7 +462,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_text_pair(
     fieldscribe_vector *v, const char *key, const char *name, const char *text)
 {
     const char *const found = fieldscribe_pair(v, key, name);
-    fieldscribe_agree(v, found != NULL && fieldscribe_spells(found, text));
+    fieldscribe_agree_on(v, name, found != NULL && fieldscribe_spells(found, text));
     ++v->matched;
 }
 
@@ -440,7 +476,7 @@ FIELDSCRIBE_ONCE void fieldscribe_are_all_pairs(fieldscribe_vector *v, const cha
         at = strchr(at, ',');
         at = at != NULL ? at + 1 : NULL;
     }
-    fieldscribe_agree(v, count == v->matched);
+    fieldscribe_agree_on(v, key, count == v->matched);
 }
 
 FIELDSCRIBE_ONCE void fieldscribe_is_status(fieldscribe_vector *v, int status)
@@ -474,7 +510,7 @@ FIELDSCRIBE_ONCE void fieldscribe_stored(
     if (status == 0) {
         fieldscribe_is_number(v, key, bits);
     } else {
-        fieldscribe_agree(v, untouched && fieldscribe_absent(fieldscribe_field(v, key)));
+        fieldscribe_agree_on(v, key, untouched && fieldscribe_absent(fieldscribe_field(v, key)));
     }
 }
 
@@ -602,7 +638,7 @@ FIELDSCRIBE_ONCE bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         fieldscribe_is_text(v, "name", function((number_type)fieldscribe_bits(v, "raw")));       \
     }
 
-/* The constants of names that several points share. */
+/* The constants of names that several points share; the program has a function for them. */
 #define FIELDSCRIBE_NAMES_OF(names) names_of_##names(v);
 
 /* The constant of a name. */
@@ -612,8 +648,8 @@ FIELDSCRIBE_ONCE bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
     }
 
 /*
- * `order` puts the high byte of the word first; it is a cast if that is first already. `is_plain` says that the
- * bits are the number.
+ * A group of bits in a word, with its macros _MASK and _SHIFT. `order` puts the high byte of the word first; it is a
+ * cast if that is first already. `is_plain` says that the bits are the number.
  */
 #define FIELDSCRIBE_BITS_IN(order, is_plain, function, raw_type, macro)                          \
     if (fieldscribe_asks(v, "bits")) {                                                           \
@@ -627,6 +663,7 @@ FIELDSCRIBE_ONCE bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         fieldscribe_is_number(v, "result", (uint64_t)function##_insert(word, put));              \
     }
 
+/* A group of bits whose high byte is first and that has no coding. */
 #define FIELDSCRIBE_BITS(function, raw_type, macro) FIELDSCRIBE_BITS_IN((uint16_t), true, function, raw_type, macro)
 
 #define FIELDSCRIBE_WORDS(function, raw_type, count)                                             \
@@ -648,11 +685,13 @@ FIELDSCRIBE_ONCE bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         fieldscribe_is_number(v, "raw", (uint64_t)raw);                                          \
     }
 
-/* The usual conversions, with no other point: of a number that is its raw number, and of one with counts and values. */
+/* A number that is its raw number: read and written, without special codes, and no other point in its limits. */
 #define FIELDSCRIBE_PLAIN(point, number_type, raw_type)                                          \
     FIELDSCRIBE_CHECK(point##_check, raw_type, FIELDSCRIBE_ALONE)                                \
     FIELDSCRIBE_ENCODE_COUNT(point##_encode, number_type, raw_type, FIELDSCRIBE_ALONE)           \
     FIELDSCRIBE_DECODE_COUNT(point##_decode, number_type, raw_type, FIELDSCRIBE_ALONE)
+
+/* A scaled number with counts and values: read and written, needs no other point, and decoding cannot fail. */
 #define FIELDSCRIBE_COUNTS(point, count_type, raw_type, real_type)                               \
     FIELDSCRIBE_CHECK(point##_check, raw_type, FIELDSCRIBE_ALONE)                                \
     FIELDSCRIBE_ENCODE_COUNT(point##_encode_count, count_type, raw_type, FIELDSCRIBE_ALONE)      \
@@ -674,17 +713,22 @@ FIELDSCRIBE_ONCE bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
 /* The facts beside an address that not all points have. */
 #define FIELDSCRIBE_REFERENCE(key, number) fieldscribe_is_pair(v, "references", key, (uint64_t)(number));
 #define FIELDSCRIBE_REFERENCE_TEXT(key, text) fieldscribe_is_text_pair(v, "references", key, text);
+
+/* The ends of the raw numbers: of a point without macros for them, as it is only read. */
 #define FIELDSCRIBE_ONLY_READ(low, high)                                                         \
     fieldscribe_is_number(v, "raw_min", (uint64_t)(low));                                        \
     fieldscribe_is_number(v, "raw_max", (uint64_t)(high));
+
+/* The same of a point that is written, with the macros _RAW_MIN and _RAW_MAX. */
 #define FIELDSCRIBE_RAWS(macro)                                                                  \
     fieldscribe_is_number(v, "raw_min", (uint64_t)(macro##_RAW_MIN));                            \
     fieldscribe_is_number(v, "raw_max", (uint64_t)(macro##_RAW_MAX));
 #define FIELDSCRIBE_DECIMALS(macro) fieldscribe_is_number(v, "decimals", (uint64_t)(macro##_DECIMALS));
+
+/* The ends and the decimals of a point that is written and has counts. */
 #define FIELDSCRIBE_COUNTED(macro)                                                               \
-    fieldscribe_is_number(v, "raw_min", (uint64_t)(macro##_RAW_MIN));                            \
-    fieldscribe_is_number(v, "raw_max", (uint64_t)(macro##_RAW_MAX));                            \
-    fieldscribe_is_number(v, "decimals", (uint64_t)(macro##_DECIMALS));
+    FIELDSCRIBE_RAWS(macro)                                                                      \
+    FIELDSCRIBE_DECIMALS(macro)
 
 /* The words of a point in order, and the facts beside them. */
 #define FIELDSCRIBE_INDEX(macro) fieldscribe_is_number(v, "index", (uint64_t)(macro##_INDEX));
@@ -1010,13 +1054,21 @@ FIELDSCRIBE_ONCE bool fieldscribe_same_number(uint64_t one, uint64_t other)
 
 /* ---- Raw numbers in words ---- */
 
-/* Whether the other bits of a word are other points, and which of them are constant. */
-#define FIELDSCRIBE_LIES(frame, shared, mask, bits)                                              \
-    v->differs = v->differs || (frame).layout->shares != (shared) || (frame).layout->fixed_mask != (mask) || \
-        (frame).layout->fixed_bits != (bits);
+/* Whether the other bits of a word are other points, and which of them are constant. It answers no field of its own. */
+FIELDSCRIBE_ONCE void fieldscribe_lies(
+    fieldscribe_vector *v, const fieldscribe_layout *layout, bool shared, uint64_t mask, uint64_t bits)
+{
+    if (layout->shares != shared || layout->fixed_mask != mask || layout->fixed_bits != bits) {
+        fieldscribe_differs(v, "the layout of the point's word");
+    }
+}
+
+#define FIELDSCRIBE_LIES(frame, shared, mask, bits) fieldscribe_lies(v, (frame).layout, shared, mask, bits);
+
+/* A number that shares no word, and has no constant bits. */
 #define FIELDSCRIBE_LIES_ALONE(frame) FIELDSCRIBE_LIES(frame, false, 0U, 0U)
 
-/* The usual exchanges of a number, by the macros of its family. */
+/* Such a number with a request that reads it and one that writes it; its family has both macros. */
 #define FIELDSCRIBE_READ_WRITE(frame, kind)                                                      \
     FIELDSCRIBE_LIES_ALONE(frame)                                                                \
     FIELDSCRIBE_READ(frame, kind)                                                                \
@@ -1317,18 +1369,21 @@ FIELDSCRIBE_ONCE size_t fieldscribe_steps(fieldscribe_vector *v)
         }                                                                                        \
     }
 
-/* The same for a point that needs no other: the number is the raw number, or its decoding or count, which may fail. */
+/* A point that needs no other, read in one call. `means`: RAW, PLAIN or COUNT_OF; TRY_ before it if that may fail. */
 #define FIELDSCRIBE_CALL_READ(device, item, type, raw_type, means)                               \
     FIELDSCRIBE_CALL_READ_BY(device##_device, device##_read_##item, type, raw_type, ,            \
         FIELDSCRIBE_DECODE_##means(device##_##item, type))
+
+/* The same, written in one call; `kind` is write, or store for one that keeps the number. */
 #define FIELDSCRIBE_CALL_WRITE(kind, device, item, type, raw_type, means)                        \
     FIELDSCRIBE_CALL_WRITE_BY(#kind, device##_device, device##_##kind##_##item, type, raw_type, , \
         FIELDSCRIBE_DECODE_##means(device##_##item, type), FIELDSCRIBE_ENCODE_##means(device##_##item, raw_type))
+
+/* The same, both read and written. */
 #define FIELDSCRIBE_CALLS(device, item, type, raw_type, means)                                   \
-    FIELDSCRIBE_CALL_READ_BY(device##_device, device##_read_##item, type, raw_type, ,            \
-        FIELDSCRIBE_DECODE_##means(device##_##item, type))                                       \
-    FIELDSCRIBE_CALL_WRITE_BY("write", device##_device, device##_write_##item, type, raw_type, , \
-        FIELDSCRIBE_DECODE_##means(device##_##item, type), FIELDSCRIBE_ENCODE_##means(device##_##item, raw_type))
+    FIELDSCRIBE_CALL_READ(device, item, type, raw_type, means)                                   \
+    FIELDSCRIBE_CALL_WRITE(write, device, item, type, raw_type, means)
+
 /* A text, bytes or a date in one call: `decoded` fills `held` from `words`, and is a status. */
 #define FIELDSCRIBE_CALL_TEXT(device_type, type, size)                                           \
     device_type device;                                                                          \
@@ -1362,6 +1417,8 @@ FIELDSCRIBE_ONCE size_t fieldscribe_steps(fieldscribe_vector *v)
         status = (int)call(&device with, held beside);                                           \
         fieldscribe_is_called(v, &device.unit, status, 0);                                       \
     }
+
+/* What `means` stands for in these macros: `raw` to `number`, and `number` to `again`; each is a status. */
 #define FIELDSCRIBE_DECODE_RAW(point, type) (number = (type)raw, 0)
 #define FIELDSCRIBE_DECODE_PLAIN(point, type) (number = (type)point##_decode(raw), 0)
 #define FIELDSCRIBE_DECODE_COUNT_OF(point, type) (number = (type)point##_decode_count(raw), 0)
@@ -1426,7 +1483,8 @@ static inline void fieldscribe_sends(fieldscribe_vector *v, const char *sent, co
 {
     uint8_t expected[FIELDSCRIBE_BYTES_MOST] = {0U};
     const size_t count = fieldscribe_hex(sent, expected, sizeof expected);
-    fieldscribe_agree(v, count == length && memcmp(expected, bytes, count) == 0);
+    const bool same = count == length && memcmp(expected, bytes, count) == 0;
+    fieldscribe_agree_on(v, "the bytes that are sent", same);
 }
 
 
@@ -1613,17 +1671,23 @@ static bool fieldscribe_skips(const fieldscribe_vector *v)
 #endif
 }
 
-/* Checks that every field of the line was compared with something. */
-static bool fieldscribe_passes(const fieldscribe_vector *v)
+/* Checks that every field of the line was compared with something, and all answers are right; else notes why not. */
+static bool fieldscribe_passes(fieldscribe_vector *v)
 {
     size_t at;
+    if (!v->answered) {
+        fieldscribe_differs(v, "nothing in the program answers it");
+    }
     for (at = 0U; at < v->own.count; ++at) {
-        if (at >= v->own.kind->count ||
-            (!v->own.used[at] && !v->own.kind->notes[at] && !fieldscribe_absent(v->own.fields[at]))) {
-            return false;
+        if (at >= v->own.kind->count) {
+            fieldscribe_differs(v, "the line has more fields than its kind");
+        } else if (!v->own.used[at] && !v->own.kind->notes[at] && !fieldscribe_absent(v->own.fields[at])) {
+            fieldscribe_differs(v, v->own.kind->keys[at]);
+        } else {
+            /* compared, or nothing to compare */
         }
     }
-    return v->answered && !v->differs;
+    return !v->differs;
 }
 
 static void fieldscribe_run_vector(fieldscribe_file *file, const char *text)
@@ -1635,6 +1699,8 @@ static void fieldscribe_run_vector(fieldscribe_file *file, const char *text)
     }
     v->answered = false;
     v->differs = false;
+    v->wrong = "";
+    v->given[0] = '\0';
     v->base = 0U;
     v->selecting = 0U;
     v->matched = 0U;
@@ -1659,7 +1725,8 @@ static void fieldscribe_run_vector(fieldscribe_file *file, const char *text)
             fprintf(stderr, "%s", v->sets[at].kind != NULL && v->sets[at].count != 0U ? v->sets[at].fields[0] : "");
             fprintf(stderr, "%s", v->sets[at].kind != NULL ? ": " : "");
         }
-        fprintf(stderr, "failed: %s", text);
+        fprintf(stderr, "failed: %s  differs: %s", text, v->wrong);
+        fprintf(stderr, "%s%s\n", v->given[0] != '\0' ? ", here " : "", v->given);
         ++file->shown;
     }
 }

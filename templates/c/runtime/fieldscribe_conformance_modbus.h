@@ -288,7 +288,9 @@ FIELDSCRIBE_ONCE fieldscribe_modbus_base fieldscribe_base_of(fieldscribe_vector 
     const char *const start = fieldscribe_pair(v, "starts", name);
     const char *const last = fieldscribe_pair(v, "lasts", name);
     fieldscribe_modbus_base base = {0xFFFFU, 0xFFFFU};
-    v->differs = v->differs || start == NULL || last == NULL;
+    if (start == NULL || last == NULL) {
+        fieldscribe_differs(v, name);
+    }
     if (start != NULL && last != NULL) {
         base.start = (uint16_t)fieldscribe_pattern(start);
         base.last = (uint16_t)fieldscribe_pattern(last);

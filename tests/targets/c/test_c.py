@@ -274,6 +274,28 @@ def test_conformance_catches_each_kind(
     assert failed == {**spoiled, "total": sum(spoiled.values())}
 
 
+@pytest.mark.parametrize(
+    ("lines", "reason"),
+    [
+        (("address\tcoil\t0\t1\t", "address\tcoil\t7\t1\t"), "address, here 0"),
+        (("decode_count\t0\tok\t0", "decode_count\t0\toverflow\t0"), "status, here ok"),
+        (("name\t0\tkeypad", "name\t0\tkeys"), "name, here keypad"),
+        (("words\t0\t0,0", "words\t0\t0,1"), "words"),
+        (("read\t010100000001fdca=", "read\t010100000002bdcb="), "the bytes that are sent"),
+        (("decode_count\t0\tok\t0", "decode_count\t0\tok\t0\tcode"), "special"),
+        (("point\trun_command", "point\tno_such_point"), "nothing in the program answers it"),
+    ],
+)
+def test_a_failure_says_what_differs(
+    lines: tuple[str, str], reason: str, sample: Path, conformance: Callable[[str], Path], tmp_path: Path
+) -> None:
+    right, wrong = lines
+    text = (sample / "vectors" / "sample_drive.txt").read_text("utf-8")
+    (tmp_path / "vectors.txt").write_text(text.replace(f"\n{right}", f"\n{wrong}", 1), encoding="utf-8")
+    done = run([conformance("sample_drive"), tmp_path / "vectors.txt"])
+    assert f"  differs: {reason}\n" in done.stderr
+
+
 def test_vectors_of_another_description_are_refused(
     sample: Path, conformance: Callable[[str], Path], tmp_path: Path
 ) -> None:
