@@ -73,7 +73,7 @@ NAMES_A_FAMILY = {
     "simulation.bench": "a line may be a bus of one",
     "simulation.servers": "a library of Python is called as one",
     "targets.python": "a library of Python is called as one",
-    "targets.typescript.syntax": "a package of npm is called as one",
+    "targets.typescript": "a package of npm is called as one",
 }
 """Modules outside the folders of families that name one, with the reason."""
 

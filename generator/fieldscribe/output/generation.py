@@ -1,7 +1,8 @@
 """Loads all devices of a run, then compares their files with the output folder, or writes them, device by device.
 
-Files are made in this process, or in a child process for all devices if the system can fork. A device with an error in
-its description or in a target, or with a foreign file in its way, keeps its old outputs.
+`generate` and `watch` make a `Generation`. Files are made in this process, or in a child process for half of the
+targets if the system can fork. A device with an error in its description or in a target, or with a foreign file in its
+way, keeps its old outputs.
 """
 
 import os
@@ -29,42 +30,6 @@ from fieldscribe.targets import TARGETS, knows, target
 T = TypeVar("T")
 
 
-def may_have_children() -> bool:
-    """Return True if there are several processors and a fork is safe for threads."""
-    return hasattr(os, "sched_getaffinity") and len(os.sched_getaffinity(0)) > 1 and threading.active_count() == 1
-
-
-def results_of_child(make: Callable[[], Iterable[T]]) -> Iterator[T]:
-    """Start a child that makes results; return an iterator over them, which waits until all are made.
-
-    The iterator raises ChildProcessError if the child is killed.
-    """
-    file = TemporaryFile()  # noqa: SIM115 - closed by the iterator
-    child = os.fork()
-    if not child:
-        status = 1
-        try:
-            for result in make():
-                pickle.dump(result, file)
-            file.close()
-            status = 0
-        finally:
-            os._exit(status)
-
-    def results() -> Iterator[T]:
-        with file:
-            if os.waitpid(child, 0)[1]:
-                raise ChildProcessError(
-                    "a process that made files broke off: is there enough memory, and room for temporary files?"
-                )
-            size = file.seek(0, os.SEEK_END)
-            file.seek(0)
-            while file.tell() < size:
-                yield pickle.load(file)  # noqa: S301 - written by our own child to a file without a name
-
-    return results()
-
-
 class Failure(NamedTuple):
     """An internal error with a device: its place and its text."""
 
@@ -74,58 +39,6 @@ class Failure(NamedTuple):
 
 Rendered = dict[str, Contents] | Failure
 """The files of a device for a target by path, or the failure."""
-
-
-class ChildTargets:
-    """A child process that renders some targets of all devices; large files come through a spool."""
-
-    def __init__(self, devices: list[Models], targets: tuple[str, ...], spool: Spool) -> None:
-        self._spool, self._targets = spool.share(), targets
-        self._results = results_of_child(lambda: _all_rendered(devices, targets, spool))
-
-    def next(self) -> dict[str, Rendered]:
-        """Return the files of the next device by target. Raises ChildProcessError."""
-        made = {target: next(self._results) for target in self._targets}
-        return {target: part if isinstance(part, Failure) else self._joined(part) for target, part in made.items()}
-
-    def _joined(self, files: dict[str, Contents]) -> dict[str, Contents]:
-        return {path: self._spool.joined(contents) for path, contents in files.items()}
-
-
-def halves(targets: Collection[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return the targets of a run in two parts of about equal time; the second is empty if there is one target.
-
-    Neighbours in the list of all targets stay together, because the page of a device shares the scripts of its package.
-    """
-    ordered = tuple(name for name in TARGETS if name in targets)
-    weights = [target(name).WEIGHT for name in ordered]
-    cut = min(range(1, len(ordered) + 1), key=lambda at: max(sum(weights[:at]), sum(weights[at:])))
-    return ordered[:cut], ordered[cut:]
-
-
-def rendered(models: Models, target: str, keep: Callable[[str], Contents]) -> Rendered:
-    """Return the files of a device for a target."""
-    try:
-        found = outputs(models.whole, [target], models.plain)
-        return dict(starmap(lambda _, path, text: (path, keep(text)), found))  # no text is kept longer than needed
-    except TargetError as error:
-        return failure(f"target {error}", error.__cause__ or error)
-    except UnicodeEncodeError as error:
-        return failure("a text", error)
-
-
-def failure(where: str, error: BaseException) -> Failure:
-    """Return the failure of an error; print its traceback if the user asked for it."""
-    show_traceback(error)
-    return Failure(where, f"{type(error).__name__}: {str(error)[:120]}")
-
-
-def _all_rendered(devices: list[Models], targets: tuple[str, ...], spool: Spool) -> Iterator[Rendered]:
-    """Yield the files of each device for each target, in the child process."""
-    for models in devices:
-        for name in targets:
-            yield rendered(models, name, spool.keep_apart)
-    spool.share()
 
 
 MANY_POINTS = 1_000
@@ -274,3 +187,94 @@ def _paths(device: Device, files_of_targets: TargetFiles) -> Iterator[str]:
     yield GENERATED.manifest(device.id)
     for files in files_of_targets.values():
         yield from files
+
+
+# Files of targets, made here or in a child process.
+
+
+def may_have_children() -> bool:
+    """Return True if there are several processors and a fork is safe for threads."""
+    return hasattr(os, "sched_getaffinity") and len(os.sched_getaffinity(0)) > 1 and threading.active_count() == 1
+
+
+def results_of_child(make: Callable[[], Iterable[T]]) -> Iterator[T]:
+    """Start a child that makes results; return an iterator over them, which waits until all are made.
+
+    The iterator raises ChildProcessError if the child is killed.
+    """
+    file = TemporaryFile()  # noqa: SIM115 - closed by the iterator
+    child = os.fork()
+    if not child:
+        status = 1
+        try:
+            for result in make():
+                pickle.dump(result, file)
+            file.close()
+            status = 0
+        finally:
+            os._exit(status)
+
+    def results() -> Iterator[T]:
+        with file:
+            if os.waitpid(child, 0)[1]:
+                raise ChildProcessError(
+                    "a process that made files broke off: is there enough memory, and room for temporary files?"
+                )
+            size = file.seek(0, os.SEEK_END)
+            file.seek(0)
+            while file.tell() < size:
+                yield pickle.load(file)  # noqa: S301 - written by our own child to a file without a name
+
+    return results()
+
+
+class ChildTargets:
+    """A child process that renders some targets of all devices; large files come through a spool."""
+
+    def __init__(self, devices: list[Models], targets: tuple[str, ...], spool: Spool) -> None:
+        self._spool, self._targets = spool.share(), targets
+        self._results = results_of_child(lambda: _all_rendered(devices, targets, spool))
+
+    def next(self) -> dict[str, Rendered]:
+        """Return the files of the next device by target. Raises ChildProcessError."""
+        made = {target: next(self._results) for target in self._targets}
+        return {target: part if isinstance(part, Failure) else self._joined(part) for target, part in made.items()}
+
+    def _joined(self, files: dict[str, Contents]) -> dict[str, Contents]:
+        return {path: self._spool.joined(contents) for path, contents in files.items()}
+
+
+def halves(targets: Collection[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the targets of a run in two parts of about equal time; the second is empty if there is one target.
+
+    Neighbours in the list of all targets stay together, because the page of a device shares the scripts of its package.
+    """
+    ordered = tuple(name for name in TARGETS if name in targets)
+    weights = [target(name).WEIGHT for name in ordered]
+    cut = min(range(1, len(ordered) + 1), key=lambda at: max(sum(weights[:at]), sum(weights[at:])))
+    return ordered[:cut], ordered[cut:]
+
+
+def rendered(models: Models, target: str, keep: Callable[[str], Contents]) -> Rendered:
+    """Return the files of a device for a target."""
+    try:
+        found = outputs(models.whole, [target], models.plain)
+        return dict(starmap(lambda _, path, text: (path, keep(text)), found))  # no text is kept longer than needed
+    except TargetError as error:
+        return failure(f"target {error}", error.__cause__ or error)
+    except UnicodeEncodeError as error:
+        return failure("a text", error)
+
+
+def failure(where: str, error: BaseException) -> Failure:
+    """Return the failure of an error; print its traceback if the user asked for it."""
+    show_traceback(error)
+    return Failure(where, f"{type(error).__name__}: {str(error)[:120]}")
+
+
+def _all_rendered(devices: list[Models], targets: tuple[str, ...], spool: Spool) -> Iterator[Rendered]:
+    """Yield the files of each device for each target, in the child process."""
+    for models in devices:
+        for name in targets:
+            yield rendered(models, name, spool.keep_apart)
+    spool.share()

@@ -7,7 +7,8 @@ import re
 from pathlib import Path
 
 import pytest
-from fieldscribe.targets.typescript.syntax import DEVICE_MEMBERS, MAKERS, NODE_MODULES, OBJECT_MEMBERS, attribute
+from fieldscribe.targets.typescript import NODE_MODULES
+from fieldscribe.targets.typescript.syntax import DEVICE_MEMBERS, MAKERS, OBJECT_MEMBERS, attribute
 from fieldscribe.text import camel, js_comment, js_string
 from support.described import compile_in, described, loaded_in
 from support.rust_crates import HOSTILE, rare_device

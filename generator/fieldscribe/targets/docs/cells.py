@@ -172,6 +172,9 @@ MARKDOWN = Form(cell, paragraph, code, link, narrow_link, target, narrow_target,
 by_rows, table = MARKDOWN.by_rows, MARKDOWN.table
 
 
+# What the rows of a device share.
+
+
 class DocsScope(NamedTuple):
     """What all rows of a device share."""
 

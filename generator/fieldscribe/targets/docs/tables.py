@@ -89,6 +89,9 @@ def decimal(text: str) -> str:
     return "" if "/" in text else text
 
 
+# Meanings and errata.
+
+
 MEANINGS = (
     Column("of", "whose row it is: what the columns `enum`, `flags` and `codes` of points name"),
     Column("kind", "`enum`, `flag`, `flag value` or `code` (a special code)"),
@@ -187,6 +190,9 @@ def erratum_rows(device: Device, encode: Encode) -> Iterator[tuple[str, ...]]:
         doubts = "; ".join(text for _, text in erratum.leaves_open)
         texts = (erratum.id, points, where, erratum.printed, erratum.taken, erratum.why, erratum.certainty, doubts)
         yield (*map(encode, texts), *source_cells(erratum.source, encode))
+
+
+# The workbook.
 
 
 _COLUMNS = (Column("sheet", ""), Column("column", ""), Column("says", ""))

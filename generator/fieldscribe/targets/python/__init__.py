@@ -102,6 +102,3 @@ def runtime(device: Device, *, tests: bool = True) -> Iterable[tuple[str, str]]:
     del device, tests  # its tests are not generated
     for name in runtime_files(f"python/runtime/{_RUNTIME}"):
         yield f"python/{_RUNTIME}/{name}", f"python/runtime/{_RUNTIME}/{name}"
-
-
-__all__ = ["device_name_taken", "identifiers", "outputs", "runtime"]

@@ -158,6 +158,9 @@ def chain(item: Item, start: str, steps: list[str]) -> Lines:
     return (f"{item} = {start}", *(f"    {step}" for step in steps[:-1]), f"    {steps[-1]};")
 
 
+# Doc comments.
+
+
 def sentence(name: str) -> str:
     """Return a name as the first sentence of a doc comment: `base_frequency` as `Base frequency.`."""
     return f"{humanised(name)}."

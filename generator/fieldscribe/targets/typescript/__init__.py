@@ -1,6 +1,6 @@
-"""The TypeScript target: a package of ES modules with types per device, and the runtime that all of them share."""
+"""The TypeScript target: a package of ES modules with types per device, their names, and the runtime that all share."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import chain
 from operator import eq
 
@@ -8,8 +8,9 @@ from fieldscribe import __version__
 from fieldscribe.code_view import DeviceCache
 from fieldscribe.model import Device
 from fieldscribe.resources import Render, runtime_files
-from fieldscribe.targets.identifiers import head_lines
-from fieldscribe.targets.typescript.syntax import Identifiers, device_name_taken, identifiers
+from fieldscribe.targets.identifiers import Names, Owner, head_lines
+from fieldscribe.targets.runtime_calls.scope import shared_identifiers
+from fieldscribe.targets.typescript.syntax import Identifiers, attribute, code_attribute, option, word_attribute
 from fieldscribe.text import js_comment, line
 from fieldscribe.wording import open_texts
 
@@ -17,6 +18,16 @@ FAMILY_PART = "targets.calls"
 WEIGHT = 0.7
 
 _RUNTIME = "fieldscribe-runtime"
+_SPACES = "TypeScript, the points", "TypeScript, the names of numbers and flags"
+_PACKAGES = frozenset({"fieldscribe_runtime", "modbus_serial", "node_modules", "serialport"})
+"""Packages beside that of a device: the runtime, its optional peers, and the folder of npm itself."""
+NODE_MODULES = frozenset(
+    {"assert", "buffer", "child_process", "cluster", "console", "constants", "crypto", "dgram", "dns", "domain"}
+    | {"events", "fs", "http", "http2", "https", "inspector", "module", "net", "os", "path", "perf_hooks", "process"}
+    | {"punycode", "querystring", "readline", "repl", "stream", "string_decoder", "sys", "timers", "tls"}
+    | {"trace_events", "tty", "url", "util", "v8", "vm", "wasi", "worker_threads", "zlib"}
+)
+"""The modules of Node that programs import by a plain name."""
 
 
 def outputs(device: Device, render: Render, *, tests: bool = True) -> Iterable[tuple[str, str]]:
@@ -95,4 +106,24 @@ def _package(device: Device, names: Identifiers) -> dict[str, object]:
     }
 
 
-__all__ = ["device_name_taken", "identifiers", "outputs", "runtime", "scripts"]
+def device_name_taken(name: str) -> str:
+    """Return why no package may have that name; empty if it may."""
+    if name in NODE_MODULES:
+        return "is a module of Node's own, which a program would get instead of the package"
+    return "is a package of npm that the generated one needs beside it" if name in _PACKAGES else ""
+
+
+def identifiers(device: Device) -> Iterator[Names]:
+    """Yield every name that depends on the description, and the fixed names in the same namespaces."""
+    names = Identifiers(device)
+    yield Names(_SPACES[1], Owner("device", device.id), (names.device_class, names.options))
+    for axis in device.variants:
+        yield Names("TypeScript, the options", Owner("variant", axis), (option(axis),))
+    yield from shared_identifiers(device, names, _SPACES, attribute, lambda flag: (word_attribute(flag),))
+    for point in device.points:
+        space, owner = f"TypeScript, the special codes of `{point.item}`", Owner("point", point.item)
+        for special in point.specials if point.generated else ():
+            yield Names(space, Owner("code", special.name, owner), (code_attribute(special),))
+
+
+# Expressions and comments.

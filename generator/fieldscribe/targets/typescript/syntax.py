@@ -5,12 +5,11 @@ A call is on one line if it fits, else it has a line for each item. A family off
 
 import re
 import textwrap
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 from fieldscribe.families import family
 from fieldscribe.model import Device, Flag, Special
-from fieldscribe.targets.identifiers import Names, Owner
 from fieldscribe.targets.runtime_calls.scope import (
     Call,
     ClassNames,
@@ -20,13 +19,9 @@ from fieldscribe.targets.runtime_calls.scope import (
     Node,
     PointName,
     Scope,
-    shared_identifiers,
 )
 from fieldscribe.text import camel, js_string, pascal
 
-_SPACES = "TypeScript, the points", "TypeScript, the names of numbers and flags"
-_PACKAGES = frozenset({"fieldscribe_runtime", "modbus_serial", "node_modules", "serialport"})
-"""Packages beside that of a device: the runtime, its optional peers, and the folder of npm itself."""
 WIDTH = 120
 _SAFE = 1 << 53
 _PLAIN_KEY = re.compile(r"[A-Za-z_$][A-Za-z0-9_$]*")
@@ -149,38 +144,6 @@ class Identifiers(ClassNames):
 def scope_of(device: Device, names: Identifiers) -> Scope:
     """Return the scope of a device in which nothing is used yet."""
     return Scope.of(device, names, attribute)
-
-
-NODE_MODULES = frozenset(
-    {"assert", "buffer", "child_process", "cluster", "console", "constants", "crypto", "dgram", "dns", "domain"}
-    | {"events", "fs", "http", "http2", "https", "inspector", "module", "net", "os", "path", "perf_hooks", "process"}
-    | {"punycode", "querystring", "readline", "repl", "stream", "string_decoder", "sys", "timers", "tls"}
-    | {"trace_events", "tty", "url", "util", "v8", "vm", "wasi", "worker_threads", "zlib"}
-)
-"""The modules of Node that programs import by a plain name."""
-
-
-def device_name_taken(name: str) -> str:
-    """Return why no package may have that name; empty if it may."""
-    if name in NODE_MODULES:
-        return "is a module of Node's own, which a program would get instead of the package"
-    return "is a package of npm that the generated one needs beside it" if name in _PACKAGES else ""
-
-
-def identifiers(device: Device) -> Iterator[Names]:
-    """Yield every name that depends on the description, and the fixed names in the same namespaces."""
-    names = Identifiers(device)
-    yield Names(_SPACES[1], Owner("device", device.id), (names.device_class, names.options))
-    for axis in device.variants:
-        yield Names("TypeScript, the options", Owner("variant", axis), (option(axis),))
-    yield from shared_identifiers(device, names, _SPACES, attribute, lambda flag: (word_attribute(flag),))
-    for point in device.points:
-        space, owner = f"TypeScript, the special codes of `{point.item}`", Owner("point", point.item)
-        for special in point.specials if point.generated else ():
-            yield Names(space, Owner("code", special.name, owner), (code_attribute(special),))
-
-
-# Expressions and comments.
 
 
 class Layout:
