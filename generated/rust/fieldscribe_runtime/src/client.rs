@@ -306,6 +306,38 @@ macro_rules! write_methods {
     };
 }
 
+/// Methods that write values to groups of bits by a method that takes checked raw numbers.
+macro_rules! bits_methods {
+    (
+        [$($async:ident)?], [$($wait:tt)*], $about:literal, $put:ident for $($reach:path)|+, $error:ty;
+        $value:ident $value_with:ident
+    ) => {
+        #[doc = $about]
+        ///
+        /// # Errors
+        /// What encoding says, and what the bus does.
+        pub $($async)? fn $value<P>(&mut self, value: P::Value) -> Result<(), $error>
+        where
+            P: EncodableAlone + BitGroup $(+ $reach)+,
+            D: Accepts<P::Device>,
+        {
+            self.$value_with::<P>(value, NeedsNothing::nothing())$($wait)*
+        }
+
+        #[doc = concat!("As `", stringify!($value), "`, by the raw numbers that the point's scale and limits need.")]
+        ///
+        /// # Errors
+        /// The same.
+        pub $($async)? fn $value_with<P>(&mut self, value: P::Value, with: P::With) -> Result<(), $error>
+        where
+            P: Encodable + BitGroup $(+ $reach)+,
+            D: Accepts<P::Device>,
+        {
+            self.$put::<P>(P::encode_with(value, with)?)$($wait)*
+        }
+    };
+}
+
 /// Methods that access points as data by `$get`, which returns the words of a point in reading order, and `$put`.
 macro_rules! data_methods {
     ([$($async:ident)?], [$($wait:tt)*], $get:ident $put:ident) => {
@@ -412,7 +444,7 @@ macro_rules! data_methods {
     };
 }
 
-pub(crate) use {data_methods, read_methods, write_methods};
+pub(crate) use {bits_methods, data_methods, read_methods, write_methods};
 
 /// The most points that are read before a point that needs them.
 pub(crate) const MOST_NEEDS: usize = 8;

@@ -222,13 +222,13 @@ def _ways(subject: CratePoint, scope: CrateScope) -> Iterator[Way]:
 
 def change_of(subject: CratePoint, change: str, update: str) -> tuple[str, Needs]:
     """Return the function that writes a point, and the structs that it needs."""
-    point = subject.point
+    point, needs = subject.point, (of_scale(subject), of_all(subject))
     if point.bits:
-        return update, ()
+        return (f"{update}_with", needs) if point.arguments else (update, ())
     if not (point.readable and point.encodes_values):
         return f"{change}_only", ()
     text = point.form == "text"
-    return f"{change}{'_text' if text else ''}", () if text else (of_scale(subject), of_all(subject))
+    return f"{change}{'_text' if text else ''}", () if text else needs
 
 
 def of_scale(subject: CratePoint) -> tuple[str, tuple[str, ...]]:

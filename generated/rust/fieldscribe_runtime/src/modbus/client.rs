@@ -9,8 +9,8 @@ use super::memory::{Forgets, Memory};
 use super::reply::wrong_length;
 use super::{Base, Block, Command, FoundBlock, Framing, Profile, Reply, Request, LONGEST};
 use crate::client::{
-    data_methods, read_methods, write_methods, AsyncTransport, LocalTransport, Transport,
-    MOST_NEEDS,
+    bits_methods, data_methods, read_methods, write_methods, AsyncTransport, LocalTransport,
+    Transport, MOST_NEEDS,
 };
 use crate::identification::{divided, holds, NOTHING_HELD};
 use crate::point::{counted, counted_mut, in_reading_order};
@@ -376,16 +376,18 @@ macro_rules! client {
                 Ok(())
             }
 
-            /// Writes a value to a group of bits: reads the word, replaces the bits, writes the word back.
-            ///
-            /// # Errors
-            /// Any [`ClientError`].
-            pub $($async)? fn update<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
+            bits_methods! {
+                [$($async)?], [$($wait)*],
+                "Writes a value to a group of bits: reads the word, replaces the bits, writes the word back.",
+                put_bits for Readable | WrittenAlone, ClientError<T::Error>;
+                update update_with
+            }
+
+            /// Writes a checked raw number to a group of bits.
+            $($async)? fn put_bits<P>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>>
             where
-                P: Readable + EncodableAlone + BitGroup + WrittenAlone,
-                D: Accepts<P::Device>,
+                P: Readable + Writable + BitGroup + WrittenAlone,
             {
-                let raw = P::encode(value)?;
                 let mut word = [0];
                 self.get::<P>(&mut word)$($wait)*?;
                 let [word] = word;

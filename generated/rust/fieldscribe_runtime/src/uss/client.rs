@@ -5,8 +5,8 @@ use core::marker::PhantomData;
 
 use super::{broadcast, Link, Parameter, Profile, Received, Reply, Request, Sent, Value, LONGEST};
 use crate::client::{
-    data_methods, read_methods, write_methods, AsyncTransport, LocalTransport, Transport,
-    MOST_NEEDS,
+    bits_methods, data_methods, read_methods, write_methods, AsyncTransport, LocalTransport,
+    Transport, MOST_NEEDS,
 };
 use crate::identification::{divided, holds, NOTHING_HELD};
 use crate::point::{joined, split};
@@ -279,16 +279,15 @@ macro_rules! client {
                 Ok(())
             }
 
-            /// Sets a group of bits of the process data, which the next telegram carries.
-            ///
-            /// # Errors
-            /// Those of encoding; [`Error::BeyondLink`] if the link has fewer words.
-            pub fn set_bits<P>(&mut self, value: P::Value) -> Result<(), Error>
-            where
-                P: EncodableAlone + BitGroup + Sent,
-                D: Accepts<P::Device>,
-            {
-                self.drive.process = self.drive.with_bits::<P>(P::encode(value)?)?;
+            bits_methods! {
+                [], [], "Sets a group of bits of the process data, which the next telegram carries.",
+                put_bits for Sent, Error;
+                set_bits set_bits_with
+            }
+
+            /// Sets a group of bits to a raw number that was checked.
+            fn put_bits<P: BitGroup + Sent>(&mut self, raw: P::Raw) -> Result<(), Error> {
+                self.drive.process = self.drive.with_bits::<P>(raw)?;
                 Ok(())
             }
 
@@ -443,16 +442,16 @@ macro_rules! client {
                 reply.map(drop).map_err(ClientError::of::<P>)
             }
 
-            /// Sets a group of bits of the process data and sends it. It stays set if the drive answers.
-            ///
-            /// # Errors
-            /// Any [`ClientError`].
-            pub $($async)? fn send_bits<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
-            where
-                P: EncodableAlone + BitGroup + Sent,
-                D: Accepts<P::Device>,
-            {
-                let process = self.drive.with_bits::<P>(P::encode(value)?)?;
+            bits_methods! {
+                [$($async)?], [$($wait)*],
+                "Sets a group of bits of the process data and sends it. It stays set if the drive answers.",
+                transfer_bits for Sent, ClientError<T::Error>;
+                send_bits send_bits_with
+            }
+
+            /// Sends a group of bits as a raw number that was checked.
+            $($async)? fn transfer_bits<P: BitGroup + Sent>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>> {
+                let process = self.drive.with_bits::<P>(raw)?;
                 self.send_process::<P>(process)$($wait)*
             }
 
@@ -514,33 +513,34 @@ macro_rules! client {
                 self.confirmed::<P>(Request::store::<P>(self.drive.unit, raw))$($wait)*
             }
 
-            /// Changes a group of bits until the power is off: reads the word, replaces the bits, writes the word back.
-            ///
-            /// # Errors
-            /// Any [`ClientError`].
-            pub $($async)? fn update<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
+            bits_methods! {
+                [$($async)?], [$($wait)*],
+                "Changes a group of bits until the power is off: reads the word, replaces the bits, writes the word back.",
+                change_bits for Readable | Parameter, ClientError<T::Error>;
+                update update_with
+            }
+
+            bits_methods! {
+                [$($async)?], [$($wait)*],
+                "As `update`, in the EEPROM too.",
+                keep_bits for Readable | Parameter, ClientError<T::Error>;
+                store_update store_update_with
+            }
+
+            /// Changes a group of bits to a raw number that was checked.
+            $($async)? fn change_bits<P>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>>
             where
-                P: Readable + EncodableAlone + BitGroup + Parameter,
-                D: Accepts<P::Device>,
+                P: Readable + Writable + BitGroup + Parameter,
             {
-                let raw = P::encode(value)?;
                 let word = self.parameter_word::<P>()$($wait)*?;
                 self.confirmed::<P>(Request::update::<P>(self.drive.unit, word, raw))$($wait)*
             }
 
-            /// As `update`, in the EEPROM too.
-            ///
-            /// # Errors
-            /// Any [`ClientError`].
-            pub $($async)? fn store_update<P>(
-                &mut self,
-                value: P::Value,
-            ) -> Result<(), ClientError<T::Error>>
+            /// As `change_bits`, in the EEPROM too.
+            $($async)? fn keep_bits<P>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>>
             where
-                P: Readable + EncodableAlone + BitGroup + Parameter,
-                D: Accepts<P::Device>,
+                P: Readable + Writable + BitGroup + Parameter,
             {
-                let raw = P::encode(value)?;
                 let word = self.parameter_word::<P>()$($wait)*?;
                 self.confirmed::<P>(Request::store_update::<P>(self.drive.unit, word, raw))$($wait)*
             }

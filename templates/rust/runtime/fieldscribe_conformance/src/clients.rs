@@ -134,11 +134,24 @@ macro_rules! with_clients {
                 + BitGroup
                 + $alone,
         {
-            let value = P::decode(vector.raw("raw"))
+            update_with::<P>(vector, profile, (), ())
+        }
+
+        /// The same for a group that needs other points.
+        pub fn update_with<P>(
+            vector: &Vector,
+            profile: &'static Profile,
+            factors: P::Factors,
+            with: P::With,
+        ) -> Outcome
+        where
+            P: Readable<Raw: Number, Value: Copy> + Encodable<With: Copy> + BitGroup + $alone,
+        {
+            let value = P::decode_with(vector.raw("raw"), factors)
                 .into_result()
                 .map_err(Error::name)?;
             blocked(vector, profile, P::BASE, &|client| {
-                client.update::<P>(value)
+                client.update_with::<P>(value, with)
             })?;
             write_data(vector, profile, P::INFO.any())
         }

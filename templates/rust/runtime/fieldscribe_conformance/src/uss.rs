@@ -126,11 +126,24 @@ where
         + BitGroup
         + Parameter,
 {
-    let value = P::decode(vector.raw("raw"))
+    store_update_with::<P>(vector, profile, (), ())
+}
+
+/// The same for a group that needs other points.
+pub fn store_update_with<P>(
+    vector: &Vector,
+    profile: &'static Profile,
+    factors: P::Factors,
+    with: P::With,
+) -> Outcome
+where
+    P: Readable<Raw: Number, Value: Copy> + Encodable<With: Copy> + BitGroup + Parameter,
+{
+    let value = P::decode_with(vector.raw("raw"), factors)
         .into_result()
         .map_err(Error::name)?;
     blocked(vector, profile, P::BASE, &|client| {
-        client.store_update::<P>(value)
+        client.store_update_with::<P>(value, with)
     })?;
     Ok(())
 }

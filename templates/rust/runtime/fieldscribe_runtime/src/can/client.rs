@@ -5,7 +5,7 @@ use core::future::Future;
 use core::marker::PhantomData;
 
 use super::{Dialogue, Frame, Message, Parameter, Profile, Received, Receiver, Telegram};
-use crate::client::{data_methods, read_methods, write_methods, MOST_NEEDS};
+use crate::client::{bits_methods, data_methods, read_methods, write_methods, MOST_NEEDS};
 use crate::identification::{divided, holds, NOTHING_HELD};
 use crate::point::{ascending, in_address_order, in_reading_order};
 use crate::trace::{self, Way};
@@ -450,16 +450,15 @@ macro_rules! client {
                 Ok(())
             }
 
-            /// Writes a value to a group of bits: reads the word, replaces the bits, writes the word back.
-            ///
-            /// # Errors
-            /// Any [`ClientError`].
-            pub $($async)? fn update<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
-            where
-                P: Readable + EncodableAlone + BitGroup + Parameter,
-                D: Accepts<P::Device>,
-            {
-                let raw = P::encode(value)?;
+            bits_methods! {
+                [$($async)?], [$($wait)*],
+                "Writes a value to a group of bits: reads the word, replaces the bits, writes the word back.",
+                put_bits for Readable | Parameter, ClientError<T::Error>;
+                update update_with
+            }
+
+            /// Writes a checked raw number to a group of bits.
+            $($async)? fn put_bits<P: BitGroup + Parameter>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>> {
                 let word = self.read_word(P::ADDRESS)$($wait)*.map_err(ClientError::of::<P>)?;
                 let written = self.write_word(P::ADDRESS, P::insert(word, raw))$($wait)*;
                 written.map_err(ClientError::of::<P>)
