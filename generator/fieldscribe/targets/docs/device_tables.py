@@ -219,21 +219,17 @@ def bus_view(device: Device, form: Form) -> BusView:
         for setting, codes in bus.serial.items()
         for number, meaning in codes.items()
     ]
+    heading = "" if asks is None else f"{asks.kind.capitalize()}s"
     responses = _linked_codes(bus.codes("responses"), form)
+    times = [(form.code(key), form.cell(value)) for key, value in bus.timing.items()]
     sections = (
-        (
-            "" if asks is None else f"{asks.kind.capitalize()}s",
-            _answered(bus, form) if answered else _functions(device, form),
-        ),
+        (heading, _answered(bus, form) if answered else _functions(device, form)),
         ("Responses", responses),
         ("Error values" if responses else "Exceptions", _linked_codes(bus.exceptions, form)),
         ("Messages", _messages(device, form)),
         ("Telegrams", _telegrams(device, form)),
         ("Serial settings", form.by_rows(("Setting", "Code", "Meaning"), serial)),
-        (
-            "Timing",
-            form.by_rows(("Time", "Value"), [(form.code(key), form.cell(value)) for key, value in bus.timing.items()]),
-        ),
+        ("Timing", form.by_rows(("Time", "Value"), times)),
         ("Commands", _commands(device, form)),
         ("Commands with steps", _stepped(device, form)),
     )
