@@ -65,12 +65,16 @@ def through_stream(line: Line) -> Callable[[bytes], bytes]:
 
 def through_frames(line: Line) -> Callable[[bytes], bytes]:
     """Frames of identifier, length and data; in front of each answer comes what the devices send by themselves."""
+    come = bytearray()
 
     def answered(data: bytes) -> Iterator[bytes]:
-        for at in range(0, len(data), 13):
+        come.extend(data)  # Rust writes a frame with the byte of a line feed in two pieces
+        while len(come) >= 13:
+            frame = bytes(come[:13])
+            del come[:13]
             line.clock.advance(0.2)
             yield from line.due()[0]
-            yield from (each.data for each in line.answer(data[at : at + 4] + data[at + 5 : at + 13]))
+            yield from (each.data for each in line.answer(frame[:4] + frame[5:]))
 
     return lambda data: b"".join(map(packed, answered(data)))
 
