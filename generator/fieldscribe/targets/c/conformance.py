@@ -150,6 +150,8 @@ def _conversion_cases(view: PointView, scope: HeaderScope) -> Iterator[str]:
     else:
         yield from _encode_cases(view, number, real, scope) if point.writable else ()
         yield from _decode_cases(view, (tried, attempt), number, real, scope) if point.readable else ()
+        if point.type == "f32" and point.has_counts:
+            yield f"F32_DECIMALS({view.macro})"
 
 
 def _check_case(view: PointView, scope: HeaderScope) -> str:

@@ -40,6 +40,7 @@ def floats(lines: Lines, encoding: PointEncoding, *, deep: bool) -> None:
         lines.add_answers("encode", answers.encode, answers.values(deep=deep), real)
         lines.add_answers("check", answers.check, [*answers.patterns_to_check(), *codes(shape)])
     if shape.width == 32 and shape.has_counts:
+        lines.add("f32_decimals", shape.decimals)
         if shape.readable:
             lines.add_answers("f32_decode_count", answers.decode_count, answers.patterns_to_count())
         if shape.writable:

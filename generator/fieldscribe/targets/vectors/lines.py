@@ -44,6 +44,7 @@ KINDS = {
     "encode_count": "count:int status:word raw:int?",
     "f32_decode_count": "only:c raw:int status:word count:int?",
     "f32_encode_count": "only:c count:int status:word raw:int?",
+    "f32_decimals": "only:c decimals:int",
     "check": "raw:int status:word",
     # names of numbers, special codes, flags, and the numbers of flags of several bits
     "name": "raw:int name:text?",
