@@ -581,6 +581,11 @@ FIELDSCRIBE_ONCE bool fieldscribe_fits_uint64_t(const char *field)
         fieldscribe_stored(v, status, "count", (uint64_t)count, count == 1);                     \
     }
 
+#define FIELDSCRIBE_F32_DECIMALS(macro)                                                          \
+    if (fieldscribe_asks(v, "f32_decimals")) {                                                   \
+        fieldscribe_is_number(v, "decimals", (uint64_t)(macro##_DECIMALS));                      \
+    }
+
 #define FIELDSCRIBE_F32_ENCODE_COUNT(function)                                                   \
     if (fieldscribe_asks(v, "f32_encode_count")) {                                               \
         uint32_t raw = 1U;                                                                       \
