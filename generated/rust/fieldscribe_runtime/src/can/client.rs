@@ -458,7 +458,10 @@ macro_rules! client {
             }
 
             /// Writes a checked raw number to a group of bits.
-            $($async)? fn put_bits<P: BitGroup + Parameter>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>> {
+            $($async)? fn put_bits<P>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>>
+            where
+                P: BitGroup + Parameter,
+            {
                 let word = self.read_word(P::ADDRESS)$($wait)*.map_err(ClientError::of::<P>)?;
                 let written = self.write_word(P::ADDRESS, P::insert(word, raw))$($wait)*;
                 written.map_err(ClientError::of::<P>)

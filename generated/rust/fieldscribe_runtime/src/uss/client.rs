@@ -450,7 +450,10 @@ macro_rules! client {
             }
 
             /// Sends a group of bits as a raw number that was checked.
-            $($async)? fn transfer_bits<P: BitGroup + Sent>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>> {
+            $($async)? fn transfer_bits<P>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>>
+            where
+                P: BitGroup + Sent,
+            {
                 let process = self.drive.with_bits::<P>(raw)?;
                 self.send_process::<P>(process)$($wait)*
             }
@@ -515,7 +518,7 @@ macro_rules! client {
 
             bits_methods! {
                 [$($async)?], [$($wait)*],
-                "Changes a group of bits until the power is off: reads the word, replaces the bits, writes the word back.",
+                "Changes a group of bits until power-off: reads the word, replaces the bits, writes the word back.",
                 change_bits for Readable | Parameter, ClientError<T::Error>;
                 update update_with
             }
