@@ -243,7 +243,7 @@ class _Output:
             usage_error(f"{counted(self._listener.others, 'frame')} of another kind of bus")
         if self._lacks_ports:
             ports = " or ".join(map(str, sorted(self._ports)))
-            usage_error(f"--port had no effect: nothing here goes to or from port {ports}", "only networks have ports")
+            usage_error(f"--port had no effect: no data here goes to or from port {ports}", "only networks have ports")
         return USAGE if self._broken or self._lacks_ports else FINDINGS if statistics.wrong else FINE
 
 
