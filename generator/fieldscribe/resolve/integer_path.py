@@ -81,8 +81,9 @@ def paths_of(facts: PointFacts, cases: tuple[ScaleCase, ...] | None, bounds: Bou
         return Paths(0)
     span = facts.span("decimals" if stated is not None else "scale")
     if stated is None and any(bounds.scales.floats(case.rule) for case in cases):
-        message = "nothing says how fine the counts are: a floating-point factor has no finest step"
-        report.error("integer-path", message, span, "add `decimals: …`, the decimals that the device resolves")
+        if "decimals" not in facts.failed:
+            message = "nothing says how fine the counts are: a floating-point factor has no finest step"
+            report.error("integer-path", message, span, "add `decimals: …`, the decimals that the device resolves")
         return Paths(0)
     chosen = _is_chosen(cases)
     needs = [_needs(case.rule, _largest(facts, bounds), bounds) for case in cases]
