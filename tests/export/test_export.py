@@ -134,6 +134,7 @@ def test_variants_errata_limits_and_codes() -> None:
 
 
 LINEAR = point("other", 1, "s16", scale=scaled(10, 5))
+HALVED = point("other", 1, scale=scaled("1/2", "1/4"))
 PLAIN, DOUBLED, FLOATING = point("other", 1), point("other", 1, scale=scaled("1/2", 0)), point("other", 1, "f32")
 
 
@@ -155,6 +156,7 @@ def use(part: str, kind: str, sign: int, **numbers: int) -> dict[str, object]:
         (LINEAR, value_of("other", -1, intercept=3, ten_to=True), Fraction(1, 1000), [use("raw", "ten_to", -1)]),
         (LINEAR, value_of("other", slope=2, ten_to=True), 1, [use("raw", "ten_to", 1)] * 2),
         (DOUBLED, value_of("other", slope=2, intercept=1, ten_to=True), 10, [use("value", "ten_to", 1)]),
+        (HALVED, value_of("other", slope=2, intercept=1, ten_to=True), 10, [use("raw", "ten_to", 1)] * 2),
         (
             point("other", 1, "s16", scale=scaled(-1)),
             value_of("other", slope=-1, ten_to=True),

@@ -74,6 +74,24 @@ def test_what_is_no_model_ends_in_a_message(
 
 
 @pytest.mark.parametrize(
+    ("kind", "size", "facts"),
+    [
+        *(("string", 1, "type: text\n  characters: 2\n"), ("sunssf", 1, "format: sunssf\n")),
+        *(("acc32", 2, "format: acc32\n"), ("acc32", 1, "length: 1\n"), ("count", 2, "length: 2\n")),
+        *(("int16", 2, "length: 2\n"), ("ipaddr", 2, "type: bytes\n"), ("ipaddr", 1, "length: 1\n")),
+    ],
+)
+def test_a_type_of_another_size_is_asked_about(
+    kind: str, size: int, facts: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "model_7.json").write_text(json.dumps(model(point(), point(name="B", type=kind, size=size))), "utf-8")
+    assert main(["import", "sunspec", str(tmp_path)]) == 0
+    draft = capsys.readouterr().out
+    assert facts in draft
+    assert (f"# ? type {kind}: {size} words" in draft) == facts.startswith("length")
+
+
+@pytest.mark.parametrize(
     ("words", "message"),
     [
         (["--models", "1,2"], "there is no model 2"),

@@ -24,6 +24,9 @@ TABLES = {
 """The tables in the folder `tables`, each beside its draft, with the options that the draft is made with."""
 
 
+RELATIONS = b"http://schemas.openxmlformats.org/officeDocument/2006/relationships"
+
+
 def write(folder: Path, name: str, text: str) -> str:
     """Return the path of a file with this text."""
     (folder / name).write_text(text, "utf-8")
@@ -73,7 +76,9 @@ def test_a_workbook(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     book.save(tmp_path / "openpyxl.xlsx")
     with ZipFile(tmp_path / "openpyxl.xlsx") as old, ZipFile(tmp_path / "list.xlsx", "w") as new:
         for name in old.namelist():  # other programs write whole numbers with a decimal point
-            new.writestr(name, old.read(name).replace(b"<v>2</v>", b"<v>2.0</v>"))
+            linked = b"<externalReferences><externalReference xmlns:r='%s' r:id='rId99'/></externalReferences><calcPr"
+            whole = old.read(name).replace(b"<v>2</v>", b"<v>2.0</v>")
+            new.writestr(name, whole.replace(b"<calcPr", linked % RELATIONS))  # the linked workbook was not sent along
     assert main(["import", "table", str(tmp_path / "list.xlsx")]) == 0
     out, err = capsys.readouterr()
     assert err.startswith("1 table holds no points")

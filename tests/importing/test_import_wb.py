@@ -60,6 +60,8 @@ def rows(**facts: Any) -> dict[str, Any]:
         ({"address": "0x10:4:2"}, "bits: 5..4"),
         ({"address": "16:8:0"}, "bits: 15..8"),
         ({"format": "s16", "error_value": "0xFFFE"}, "special: {-2: error}"),
+        ({"format": "s16", "error_value": "0x8000", "unsupported_value": 32767}, "{-32768: error, 32767: unsupported}"),
+        ({"format": "s16", "error_value": "0x10000"}, "65536: error"),
         ({"units": "Па"}, "unit: Pa"),
         ({"type": "lux"}, "unit: lx"),
         ({"scale": 0.00610352, "round_to": 0.01}, "display: {decimals: 2}"),

@@ -79,6 +79,15 @@ def test_elements_differ_where_each_says_so(tmp_path: Path) -> None:
     assert lines == [5, 5, 7]
 
 
+def test_an_enum_belongs_to_its_row_or_to_the_element_that_states_it(tmp_path: Path) -> None:
+    """An element may be named by its set and by both numbers at once: the enum is its own if either states one."""
+    each = "{1: {default: 0}, 2: {default: 0}, 2/1: {enum: {0: wait}}, 3/1: {enum: {0: off}}}"
+    rows = f"- {{name: mode, at: 10, enum: {{0: stop}}, sets: 3, indices: 2, each: {each}}}\n"
+    points = described_so(tmp_path, rows, addressing=BY_SETS).points
+    alone = ("mode_set_2_index_1", "mode_set_3_index_1")
+    assert [one.enum_names for one in points] == [(one.item if one.item in alone else "mode",) for one in points]
+
+
 def test_a_rule_is_about_each_number_under_at(tmp_path: Path) -> None:
     """Also in records, in texts whose words run down, and in sets that have rows of their own."""
     rows = """\

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 import random
+import re
 import select
 import subprocess
 import sys
@@ -16,12 +18,13 @@ from typing import Any
 import can
 import cantools
 import pytest
+from fieldscribe.diagnostics import UnclearError
 from fieldscribe.families.can.dbc import export
 from fieldscribe.families.can.simulation import core_of
-from fieldscribe.simulation.bench import layout_of
+from fieldscribe.simulation.bench import Bench, layout_of
 from fieldscribe.simulation.device import Clock, SimulatedDevice
 from fieldscribe.simulation.line import Fault
-from fieldscribe.simulation.servers import simulated
+from fieldscribe.simulation.servers import serve, simulated
 from support.places import PACKAGES, TESTS
 from support.python_package import imported
 from support.simulated_lines import DirectBus
@@ -189,6 +192,20 @@ def test_over_a_virtual_bus(package: Any) -> None:
         assert client.generator_frequency.read() == 50
         assert client.generator_active_power.read() == 90_000
         assert client.control_register_2.read().generator_breaker_closed
+
+
+@pytest.mark.parametrize(("line", "options"), [({}, ""), ({"speed": 250000}, ", 'bitrate': 250000")])
+def test_a_bus_without_a_speed_opens_at_what_python_can_is_set_up_for(
+    line: dict[str, Any], options: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(channel: str, **given: Any) -> None:
+        raise OSError(f"{channel} {given}")
+
+    monkeypatch.setattr(can, "Bus", refuse)
+    devices = [{"device": "woodward_mpu2s", "variant": {"voltage": "400V"}}]
+    (made,) = Bench({"lines": [{"can": "pcan:one", "devices": devices, **line}]}).lines
+    with pytest.raises(UnclearError, match=re.escape(f"one {{'interface': 'pcan'{options}}}")):
+        asyncio.run(serve(made))
 
 
 @pytest.mark.full(seconds=8)
