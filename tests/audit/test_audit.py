@@ -115,11 +115,18 @@ def test_a_changed_fact_is_named_with_its_place(
     assert [(one["subject"], one["fact"], one["wanted"], one["line"]) for one in found["missing"]] == missing
 
 
-def test_an_added_row_among_cited_ones_is_found(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    row = "| A009 | Added | 1009h (4105) | 0-9 | 1 s |\n"
-    code, found = audit(tmp_path, capsys, MANUAL.replace("4.1 Speed", row + "\n4.1 Speed"))
+@pytest.mark.parametrize("letter", "AP")
+def test_an_added_code_among_cited_ones_is_found(
+    letter: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Also one that is no number: `A009` may be hexadecimal, `P009` is not."""
+    manual, device = (text.replace("A00", f"{letter}00") for text in (MANUAL, DEVICE))
+    was = manual.replace("second source ", f"as {letter}001     ")
+    added = f"| {letter}009 | Added | 1009h (4105) | 0-9 | 1 s |\n\n4.1 Speed"
+    assert audit(tmp_path, capsys, was, device, was)[1]["unused_numbers"] == []
+    code, found = audit(tmp_path, capsys, was.replace("4.1 Speed", added), device, was)
     assert code == 1
-    assert "A009" in [one["number"] for one in found["unused_numbers"]]
+    assert f"{letter}009" in [one["number"] for one in found["unused_numbers"]]
 
 
 def test_one_fact_in_two_notations_is_reported_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

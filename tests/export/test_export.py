@@ -12,7 +12,7 @@ from typing import Any
 import fieldscribe
 import pytest
 from fieldscribe.export import export_model, schema_text
-from fieldscribe.facts.point_values import bound_of, use_of
+from fieldscribe.facts.point_values import bound_of, use_of, word_order_view
 from fieldscribe.model import Factor, Flag, Limit, Point, Special
 from jsonschema import Draft202012Validator
 from support.described import described, loaded_in, made
@@ -240,6 +240,11 @@ def test_the_layout_of_a_message() -> None:
     assert list(read) == [*head, "source"]
     assert len(read["layout"]) == 8
     assert read["layout"][0] == {"holds": "constant", "number": 0xFF}
+
+
+@pytest.mark.parametrize(("addresses", "order"), [([4, 5], None), ([5, 4], "low first"), ([6, 7, 4, 5], [2, 3, 0, 1])])
+def test_the_order_of_words_counts_from_the_lowest(addresses: list[int], order: object) -> None:
+    assert word_order_view({"addresses": addresses}) == order
 
 
 def test_computed_ends_as_expressions() -> None:

@@ -120,6 +120,9 @@ def test_quantities(cell: str, quantity: tuple[Fraction, str] | None) -> None:
         ("0: Off 1: On", {"0": "Off", "1": "On"}),
         ("0 = off, 0 = on", {}),
         ("0 = off", {}),
+        ("\n".join(f"{n} = x" for n in range(512)), {str(n): "x" for n in range(512)}),
+        ("\n".join(f"{n} = x" for n in range(513)), {}),
+        (f"0 = {'x' * 121}, 1 = y", {"0": "x" * 120, "1": "y"}),
         ("0 ... 100 %", {}),
         ("1 (Hz/s) bis 50 (Hz/s)", {}),
         ("no numbers", {}),
@@ -143,6 +146,9 @@ def test_words_of_cells() -> None:
     assert [cells.bits_in(cell) for cell in bits] == ["11", "3", "15..14", "7..4", None, None, None, None]
     units = ("Hz", "seconds", "Std", "[°C]", "1/min", "sacks", "")
     assert [cells.unit_in(cell) for cell in units] == ["Hz", "s", "h", "°C", "1/min", "", ""]
+    words = "Std Stunden hrs Sek seconds Minuten msec Tage days Grad Prozent percent hz khz Volt Ampere amps Watt U/min"
+    symbols = ["h", "h", "h", "s", "s", "min", "ms", "d", "d", "°", "%", "%", "Hz", "kHz", "V", "A", "A", "W", "rpm"]
+    assert [cells.unit_in(word) for word in words.split()] == symbols
     spaces = ("Coils", "Discrete Inputs", "Input register", "4x", "Holding", "FC04", "Object", "")
     found = ["coil", "discrete", "input", "holding", "holding", "input", None, None]
     assert [cells.space_in(cell) for cell in spaces] == found

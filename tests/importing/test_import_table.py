@@ -291,6 +291,12 @@ def test_three_thousand_is_asked_about(tmp_path: Path, capsys: pytest.CaptureFix
     assert not [line for line in speed if line.startswith(("  range", "  default"))]
 
 
+def test_labels_may_stand_in_a_second_description(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = 'Address,Name,Description,Remarks\n1,Mode,How it runs,"0 = off, 1 = turning"\n'
+    assert main(["import", "table", write(tmp_path, "rows.csv", text)]) == 0
+    assert "    1: {name: turning, en: turning}" in points(capsys.readouterr().out)["mode"]
+
+
 def test_a_point_that_no_question_can_mend_is_a_bug() -> None:
     point = DraftPoint(1, "holding", "Speed", facts={"at": "~", "unit": "V"})
     point.withdraw("title", "no such title")
