@@ -157,6 +157,7 @@ STRICT: list[tuple[str, str, str]] = [
     ("03 1028 0005", "format: function 03h takes 4 items at most, not 5", "line 138"),
     ("03 002e 0004", "address: holding 46 to 49 crosses the gap 002Fh to 08FFh", "line 138"),
     ("03 0003 0001", "address: nothing is at holding 3", "line 138"),
+    ("03 1014 0001", "a part of a number: a read has a part of F002 acceleration_time", "line 741"),
     ("06 1028 ffff", "out of range: A020 base_frequency does not take raw 65535", "line 780"),
     ("06 1001 0001", "read only: d001 output_frequency can only be read", "line 669"),
 ]
