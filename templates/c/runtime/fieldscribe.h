@@ -561,7 +561,10 @@ static inline bool fieldscribe_narrow_ratio(
     if ((lost != 0U) && ((rest < lowest) || (((over - rest) >> 4) <= end))) {
         return false;
     }
-    *twice = quotient - ((rest < lowest) ? 1U : 0U);
+    *twice = quotient;
+    if (rest < lowest) {
+        --*twice;
+    }
     return true;
 }
 
@@ -712,7 +715,8 @@ static inline bool fieldscribe_multiply(int64_t a, int64_t b, int64_t *product)
     fieldscribe_u128 size;
     if ((a >= 0) && (a <= 0x7FFFFFFF) && (b >= 0) && (b <= 0xFFFF)) { /* two products of 32 bits */
         const uint32_t high = ((uint32_t)a >> 16) * (uint32_t)b;
-        *product = (int64_t)(((uint64_t)high << 16) + (((uint32_t)a & 0xFFFFU) * (uint32_t)b));
+        const uint32_t low = ((uint32_t)a & 0xFFFFU) * (uint32_t)b;
+        *product = (int64_t)(((uint64_t)high << 16) + low);
         return true;
     }
     size = fieldscribe_product(fieldscribe_magnitude(a), fieldscribe_magnitude(b));
