@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 import sys
 from pathlib import Path
 from typing import Any
@@ -89,6 +90,18 @@ def test_names_differ_in_more_than_underscores(tmp_path: Path) -> None:
     text = written(tmp_path, text=f'VERSION ""\nBU_: D\nBO_ 1 M: 8 D\n{signals}')
     assert "name: temp1" in text
     assert "name: temp_1_n2" in text
+
+
+@pytest.mark.parametrize(("sign", "least", "greatest"), [("-", -128, 127), ("+", 0, 255)])
+def test_numbers_that_a_signal_can_hold_have_their_names(
+    sign: str, least: int, greatest: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    names = f'VAL_ 1 A {least - 1} "under" {least} "least" {greatest} "greatest" {greatest + 1} "over" ;\n'
+    signals = f' SG_ B : 8|8@1+ (1,0) [0|0] "" D\n SG_ A : 0|8@1{sign} (1,0) [0|0] "" D\n'
+    text = written(tmp_path, text=f'VERSION ""\nBU_: D\nBO_ 1 M: 8 D\n{signals}{names}')
+    assert "names of numbers that the signal cannot hold (2)" in capsys.readouterr().err
+    assert [word in text for word in (f"{least}: ", f"{greatest}: ", "under", "over")] == [True, True, False, False]
+    assert re.findall("line: ([0-9]+)", text) == ["5", "4"]
 
 
 def test_a_node_receives_what_others_send(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

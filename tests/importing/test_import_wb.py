@@ -96,16 +96,17 @@ def imported(template: Any, folder: Path, capsys: pytest.CaptureFixture[str], na
 
 
 @pytest.mark.parametrize(
-    ("places", "folded"),
+    ("places", "facts", "folded"),
     [
-        *(({1: 1, 2: 3, 3: 5}, True), ({1: 1, 2: 3, 3: 6}, False), ({1: 1, 3: 3, 4: 5}, False)),
-        *(({1: 5, 2: 3, 3: 1}, False), ({3: 5, 1: 1, 2: 3}, False)),
+        *(({1: 1, 2: 3, 3: 5}, {}, True), ({1: 1, 2: 3, 3: 6}, {}, False), ({1: 1, 3: 3, 4: 5}, {}, False)),
+        *(({1: 5, 2: 3, 3: 1}, {}, False), ({3: 5, 1: 1, 2: 3}, {}, False)),
+        ({1: 1, 2: 3, 3: 5}, {"write_address": 9}, False),
     ],
 )
 def test_numbered_channels_are_one_row_if_each_is_as_far_from_the_one_before(
-    places: dict[int, int], folded: bool, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    places: dict[int, int], facts: dict[str, int], folded: bool, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    channels = [{"name": f"Input {number}", "address": address} for number, address in places.items()]
+    channels = [{"name": f"Input {number}", "address": address} | facts for number, address in places.items()]
     draft = imported({"device": {"channels": channels}}, tmp_path, capsys)
     assert ("indices: 1..3" in draft, draft.count("\n- name: input")) == ((True, 1) if folded else (False, 3))
 

@@ -93,7 +93,7 @@ class DraftPoint:
     def share(self, other: DraftPoint, key: str, reason: str) -> None:
         """Become a view of another point at the same address, or let it become one of this; else leave `key` open."""
         viewed = self.facts.get("view_of"), other.facts.get("view_of")
-        if not self.views or None not in viewed:
+        if not (self.views and other.views) or None not in viewed:
             self.withdraw(key, reason)
         elif viewed[0] is None:
             self.facts["view_of"] = viewed[1] or other.name
@@ -122,6 +122,7 @@ class DraftPoint:
         self.questions.append(f"{key}: {value}? {reason}")
 
     def _leave_open(self, key: str) -> None:
+        self.views = self.views and key != "view_of"  # a view that does not compile is not tried again
         del self.facts[key]
         if key in ("at", "type", "scale"):
             self.facts[key] = "~"
