@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 import os
 import re
 import shutil
@@ -32,7 +33,7 @@ from fieldscribe.targets import TARGETS, target
 from support.described import loaded, made
 from support.files import copy_compiler
 from support.models import FREQUENCY_SOURCE, point, sample_device
-from support.places import TESTS
+from support.places import ROOT, TESTS
 from support.quick import full_but
 
 DEVICES = TESTS / "devices"
@@ -182,6 +183,12 @@ def test_texts_for_people_count_among_all_facts() -> None:
     ]
     assert facts_digest(replace(device, version="9.9.9")) == facts_digest(device)
     assert len({all_facts(other) for other in (device, *edited)}) == len(edited) + 1
+
+
+def test_the_digest_of_a_release_stays() -> None:
+    """What nobody changed has no other digest with a newer compiler: users would be warned of it."""
+    released = json.loads((ROOT / "generated/manifest/nord_sk5xxe.json").read_text("utf-8"))["facts"]["digest"]
+    assert facts_digest(loaded(ROOT / "descriptions/nord_sk5xxe/device.yaml")) == released
 
 
 @pytest.mark.parametrize(
