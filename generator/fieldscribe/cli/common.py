@@ -6,7 +6,6 @@ import sys
 from argparse import ArgumentParser, ArgumentTypeError, Namespace, _ArgumentGroup
 from collections.abc import Callable, Iterable
 from contextlib import suppress
-from difflib import get_close_matches
 from functools import lru_cache
 from math import inf
 from pathlib import Path
@@ -249,6 +248,8 @@ def _searched_folders(arguments: Namespace) -> list[Path]:
 
 def _near(name: str, known: list[str]) -> str:
     """Return a hint with similar names, or else with all names."""
+    from difflib import get_close_matches
+
     near = did_you_mean(get_close_matches(name.lower()[:60], known, 3))
     return near or (f"there are {', '.join(known[:20])}" if known else "")
 
