@@ -123,7 +123,7 @@ class StreamDecoder:
         notes = decoded.result.notes
         if framings or decoded.request or self._misprints or data is frame:
             notes += tuple(self._warnings(decoded, data, state.directory))
-        result = FrameResult(*decoded.result[:-3], notes, items, frame)
+        result = decoded.result._replace(notes=notes, items=items, frame=frame)
         if memo is not None and framings is self._framings:
             memo[:] = state, version, result
         return result
