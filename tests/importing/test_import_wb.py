@@ -20,7 +20,7 @@ from hypothesis import strategies as st
 FOLDER = Path(__file__).parent / "wb"
 
 
-@pytest.mark.parametrize("template", ["heater.json", "relays.json.jinja"])
+@pytest.mark.parametrize("template", ["heater.json", "relays.json.jinja", "fields.json", "conditions.json"])
 def test_a_template_becomes_a_device(template: str, capsys: pytest.CaptureFixture[str]) -> None:
     """FIELDSCRIBE_ACCEPT=1 writes the drafts; look at the difference."""
     assert main(["import", "wb", str(FOLDER / template), "--device", "heater"]) == 0
@@ -44,48 +44,6 @@ def test_a_collection_has_a_line_of_marks(tmp_path: Path, capsys: pytest.Capture
     assert "  not carried: condition: 2 in 1 files, alone in 0\n" in printed
 
 
-def rows(**facts: Any) -> dict[str, Any]:
-    return {"device": {"channels": [{"name": "A", "address": 1} | facts]}}
-
-
-@pytest.mark.parametrize(
-    ("facts", "line"),
-    [
-        ({"format": "s24"}, "type: s24"),
-        ({"format": "double", "word_order": "little_endian"}, "words: low first"),
-        ({"format": "s16", "scale": -0.1, "offset": 4}, "scale: value = raw * -0.1 + 4"),
-        ({"scale": 0.1, "min": 0, "max": 9999}, "range_in_units: 0..6553.5"),
-        ({"scale": 0.25, "min": 0.1, "max": 1}, "range: 1..4"),
-        ({"enum": [0, 10], "enum_titles": ["a", "b"], "scale": 10}, "1: {name: b, en: b}"),
-        ({"address": "0x10:4:2"}, "bits: 5..4"),
-        ({"address": "16:8:0"}, "bits: 15..8"),
-        ({"format": "s16", "error_value": "0xFFFE"}, "special: {-2: error}"),
-        ({"format": "s16", "error_value": "0x8000", "unsupported_value": 32767}, "{-32768: error, 32767: unsupported}"),
-        ({"format": "s16", "error_value": "0x10000"}, "65536: error"),
-        ({"units": "Па"}, "unit: Pa"),
-        ({"type": "lux"}, "unit: lx"),
-        ({"scale": 0.00610352, "round_to": 0.01}, "display: {decimals: 2}"),
-        ({"write_address": "0x20"}, "write_at: 32"),
-        ({"readonly": True}, "access: r"),
-        ({"reg_type": "press_counter"}, "space: input"),
-        ({"default": 7}, "default: 7"),
-        ({"scale": 0.5, "default": 7}, "default_in_units: 7"),
-        ({"description": "why"}, "note: {en: why}"),
-        ({"fw": "1.10.0"}, "since: firmware 1.10.0"),
-        ({"format": "string8", "string_data_size": 3}, "characters: 6"),
-        ({"address": "x"}, "# ? not carried: at: x"),
-        ({"scale": "much"}, "# ? not carried: scale: much"),
-        ({"min": 1, "format": "float"}, "# ? not carried: range: 1..None"),
-        ({"enum": ["a", 1]}, "# ? not carried: enum: ['a', 1]"),
-        ({"enum": [10, 25], "scale": 10}, "# ? not carried: enum: [10, 25]"),
-        ({"on_value": 5}, "# ? not carried: on_value: 5, off_value: None"),
-        ({"address": 70000}, "# ? at: 70000? "),
-    ],
-)
-def test_a_fact(facts: dict[str, Any], line: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert line in imported(rows(**facts), tmp_path, capsys)
-
-
 def imported(template: Any, folder: Path, capsys: pytest.CaptureFixture[str], name: str = "config-a.json") -> str:
     """Return the draft of a template, or the message."""
     path = folder / name
@@ -93,22 +51,6 @@ def imported(template: Any, folder: Path, capsys: pytest.CaptureFixture[str], na
     main(["import", "wb", str(path)])
     draft, message = capsys.readouterr()
     return draft or message
-
-
-@pytest.mark.parametrize(
-    ("places", "facts", "folded"),
-    [
-        *(({1: 1, 2: 3, 3: 5}, {}, True), ({1: 1, 2: 3, 3: 6}, {}, False), ({1: 1, 3: 3, 4: 5}, {}, False)),
-        *(({1: 5, 2: 3, 3: 1}, {}, False), ({3: 5, 1: 1, 2: 3}, {}, False)),
-        ({1: 1, 2: 3, 3: 5}, {"write_address": 9}, False),
-    ],
-)
-def test_numbered_channels_are_one_row_if_each_is_as_far_from_the_one_before(
-    places: dict[int, int], facts: dict[str, int], folded: bool, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    channels = [{"name": f"Input {number}", "address": address} | facts for number, address in places.items()]
-    draft = imported({"device": {"channels": channels}}, tmp_path, capsys)
-    assert ("indices: 1..3" in draft, draft.count("\n- name: input")) == ((True, 1) if folded else (False, 3))
 
 
 class Known:

@@ -124,13 +124,13 @@ class Row:
         number, _, bits = str(place).partition(":")
         wire = number_of(number)
         match = re.fullmatch(r"([0-9]{1,2}):([0-9]{1,2})", bits)
-        if wire is None or wire.denominator != 1 or wire < 0 or (bits and match is None):
+        if wire is None or wire.denominator != 1 or wire < 0 or (bits and (match is None or key != "at")):
             self.lose(key, place)
             return
         self.point.facts[key] = str(wire)
         if key == "at":
             self.point.wire = int(wire)
-        if match and int(match[2]) < 16 and key == "at":
+        if match and int(match[2]) < 16:
             low = int(match[1])
             high = low + int(match[2]) - 1 if int(match[2]) else 15
             self.point.facts["bits"] = str(low) if low == high else f"{high}..{low}"
@@ -204,6 +204,8 @@ class Row:
             self.labels = {int(raw): str(word) for raw, word in zip(raws, words, strict=True) if raw is not None}
             if len(self.labels) < len(numbers) or any(raw is None or raw.denominator != 1 for raw in raws):
                 self.lose("enum", numbers)
+        elif numbers is not None:
+            self.lose("enum", numbers)
         elif control == "pushbutton" and on not in (None, 1):
             self.labels, self.point.facts["open"] = {int(on or 0): "Press"}, "yes"
         elif control in ("switch", "alarm") and on is None and off is None:
