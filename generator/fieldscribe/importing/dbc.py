@@ -125,7 +125,7 @@ class DbcDraft:
         plain = factor == 1 and not offset
         if not plain and (not factor or signal.is_float):
             self.lost["scales of floating-point numbers, or of 0"] += 1
-            point.facts |= {"scale": "~"} if not factor else {}
+            point.facts["scale"] = "~"
         elif not plain:
             sign, amount = ("-" if offset < 0 else "+"), _decimal(abs(signal.offset))
             rule = f"value = raw * {_decimal(signal.scale)}" if factor != 1 else "value = raw"
