@@ -198,14 +198,8 @@ class Row:
         """Read the names of numbers; they are raw, so they replace a scale."""
         numbers, titles = self.take("enum"), self.take("enum_titles")
         on, off, control = self.take_number("on_value"), self.take_number("off_value"), self.item.get("type")
-        if isinstance(numbers, list) and len(numbers) <= _MOST_NAMED:
-            raws = [None if (value := number_of(number)) is None else self.raw(value) for number in numbers]
-            words = titles if isinstance(titles, list) and len(titles) == len(numbers) else numbers
-            self.labels = {int(raw): str(word) for raw, word in zip(raws, words, strict=True) if raw is not None}
-            if len(self.labels) < len(numbers) or any(raw is None or raw.denominator != 1 for raw in raws):
-                self.lose("enum", numbers)
-        elif numbers is not None:
-            self.lose("enum", numbers)
+        if numbers is not None:
+            self._read_enum(numbers, titles)
         elif control == "pushbutton" and on not in (None, 1):
             self.labels, self.point.facts["open"] = {int(on or 0): "Press"}, "yes"
         elif control in ("switch", "alarm") and on is None and off is None:
@@ -219,6 +213,16 @@ class Row:
         if self.labels:
             for key in ("scale", "unit", "display"):
                 self.point.facts.pop(key, None)
+
+    def _read_enum(self, numbers: Any, titles: Any) -> None:
+        """Read listed numbers with their titles."""
+        listed = numbers if isinstance(numbers, list) and len(numbers) <= _MOST_NAMED else []
+        raws = [None if (value := number_of(number)) is None else self.raw(value) for number in listed]
+        words = titles if isinstance(titles, list) and len(titles) == len(listed) else listed
+        self.labels = {int(raw): str(word) for raw, word in zip(raws, words, strict=True) if raw is not None}
+        are_whole = all(raw is not None and raw.denominator == 1 for raw in raws)
+        if not listed or len(self.labels) < len(listed) or not are_whole:
+            self.lose("enum", numbers)
 
     def _read_range(self) -> None:
         """Read the range, limited to what the type can hold."""
