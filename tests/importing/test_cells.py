@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
 
 import pytest
@@ -133,26 +134,70 @@ def test_labels(cell: str, labels: dict[str, str]) -> None:
     assert cells.labels_in(cell) == labels
 
 
-def test_words_of_cells() -> None:
-    accesses = ("R/W", "RO", "nur lesen", "Schreiben", "—", "perhaps", "")
-    assert [cells.access_in(cell) for cell in accesses] == ["rw", "r", "r", "w", "none", None, None]
-    types = ("UINT16", "Unsigned 32 bit", "float", "BOOL", "Int_16", "INT", "BCD", "")
-    assert [cells.type_in(cell) for cell in types] == ["u16", "u32", "f32", "bit", "s16", None, None, None]
-    kinds = ("u8", "s8", "u16", "s16", "u32", "s32", "u64", "s64", "f32", "f64", "bit")
-    assert [cells.type_in(kind) for kind in kinds] == list(kinds)
-    spelled = ("byte", "SINT", "Word", "short", "DWORD", "DINT", "ULINT", "LINT", "real", "double", "boolean")
-    assert [cells.type_in(cell) for cell in spelled] == list(kinds)
-    bits = ("11", "Bit 3", "15 + 14", "4..7", "16", "99", "Word", "")
-    assert [cells.bits_in(cell) for cell in bits] == ["11", "3", "15..14", "7..4", None, None, None, None]
-    units = ("Hz", "seconds", "Std", "[°C]", "1/min", "sacks", "")
-    assert [cells.unit_in(cell) for cell in units] == ["Hz", "s", "h", "°C", "1/min", "", ""]
-    words = "Std Stunden hrs Sek seconds Minuten msec Tage days Grad Prozent percent hz khz Volt Ampere amps Watt U/min"
-    symbols = ["h", "h", "h", "s", "s", "min", "ms", "d", "d", "°", "%", "%", "Hz", "kHz", "V", "A", "A", "W", "rpm"]
-    assert [cells.unit_in(word) for word in words.split()] == symbols
-    spaces = ("Coils", "Discrete Inputs", "Input register", "4x", "Holding", "FC04", "Object", "")
-    found = ["coil", "discrete", "input", "holding", "holding", "input", None, None]
-    assert [cells.space_in(cell) for cell in spaces] == found
-    assert [cells.is_reserved(cell) for cell in ("Reserved", "(nicht belegt)", "reserved power")] == [True, True, False]
+READERS: dict[str, Callable[[str], object]] = {
+    "access": cells.access_in,
+    "type": cells.type_in,
+    "bits": cells.bits_in,
+    "unit": cells.unit_in,
+    "space": cells.space_in,
+    "reserved": cells.is_reserved,
+}
+WORDS = """\
+access | r | r, RO, r/o, Read, read only, read-only, nur lesen, Lesen, l, get
+access | w | w, wo, W/O, write, write only, write-only, Schreiben, nur schreiben, set
+access | rw | rw, R/W, w/r, wr, read/write, Read and Write, readwrite, lesen/schreiben, l/s, R&W
+access | none | -, —, –, none, n/a
+access | None | perhaps,
+type | u16 | UINT16, uint, ushort, word, Wort, unsigned, unsigned16, unsigned int, 16bit, u16
+type | s16 | Int16, Int_16, sint16, i16, signed, signed16, short, signed short, s16
+type | u32 | Unsigned 32 bit, uint32, udint, DWORD, Doppelwort, ulong, unsigned long, u32
+type | s32 | int32, sint32, i32, dint, signed long, signed32, s32
+type | u64 | u64, uint64, ulint, unsigned64
+type | s64 | s64, int64, lint, signed64
+type | f32 | f32, float, float32, real, single, ieee754, IEEE float, real32
+type | f64 | f64, double, float64, lreal
+type | bit | bit, BOOL, Boolean, binary
+type | u8 | u8, uint8, byte, usint, uchar
+type | s8 | s8, int8, SINT
+type | None | INT, BCD,
+bits | 0 | 0, 0-0
+bits | 3 | 3, Bit 3
+bits | 15 | 15
+bits | 3..2 | Bits 3-2, Doppelbit 2–3, 2..3, 3:2, 2 + 3, 3/2, 2 to 3, 2 bis 3
+bits | None | 16, 99, 3-16, 1-2-3, Word,
+unit | h | Std, Stunde, Stunden, hours, hour, hrs
+unit | s | Sek, Sekunde, Sekunden, seconds, second, sec
+unit | min | Minuten, Minute, minutes
+unit | ms | msec, Millisekunden
+unit | d | Tage, days
+unit | % | Prozent, percent
+unit | ° | Grad
+unit | Hz | hz, [Hz], (Hz.)
+unit | kHz | khz
+unit | V | Volt
+unit | A | Ampere, amps
+unit | W | Watt
+unit | rpm | U/min
+unit | 1/min | 1/min
+unit | °C | °C, [°C]
+unit || sacks,
+space | coil | Coils, coil, 0x, 0xxxx, FC1, fc 01
+space | discrete | Discrete Inputs, Diskret, 1x, Status input, FC02, fc2
+space | input | Input register, Eingangsregister, 3x, 4h read input, Input, FC04
+space | holding | Holding, Halteregister, 4x, 4xxxx, FC 3
+space | parameter | ID, PNU, Parameter-Nr., Parameteradresse, parameter number
+space | None | Object, coiled, FC5,
+reserved | True | Reserved, reserviert, (nicht belegt), nicht benutzt, Not used, Spare., frei, internal
+reserved | False | reserved power, internal fan,
+"""
+"""Who reads them, what they mean, and the words; nothing between commas is an empty cell."""
+
+
+@pytest.mark.parametrize("row", WORDS.splitlines())
+def test_words_of_cells(row: str) -> None:
+    reader, meaning, words = (part.strip() for part in row.split("|"))
+    listed = [word.strip() for word in words.split(",")]
+    assert {word: str(READERS[reader](word)) for word in listed} == dict.fromkeys(listed, meaning)
 
 
 def test_text_of_cells() -> None:

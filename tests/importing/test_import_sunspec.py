@@ -14,24 +14,26 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from support.places import ROOT
 
-FOLDER = Path(__file__).parent / "sunspec"
+FOLDER, OURS = (Path(__file__).parent / name for name in ("sunspec", "models"))
 
 
 DRAFTS = {
-    "inverter": ["--models", "1,103,160"],
-    "curves": ["--models", "707", "--most", "2"],
-    "curves_of_four": ["--models", "707", "--count", "NPt=4", "--most", "3", "--exponents", "4"],
-    "all_types": ["--models", "63001"],
+    FOLDER / "inverter": ["--models", "1,103,160"],
+    FOLDER / "curves": ["--models", "707", "--most", "2"],
+    FOLDER / "curves_of_four": ["--models", "707", "--count", "NPt=4", "--most", "3", "--exponents", "4"],
+    FOLDER / "all_types": ["--models", "63001"],
+    OURS / "facts": ["--most", "2"],
+    OURS / "counts": ["--models", "63101", "--most", "3", "--count", "M=2", "--count", "N=1", "--count", "W=4"],
 }
-"""The drafts in the folder `sunspec`, with the options that they are made with."""
+"""The drafts beside the models, with the options that they are made with."""
 
 
-@pytest.mark.parametrize("device", DRAFTS)
-def test_models_become_a_device(device: str, capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize("device", DRAFTS, ids=lambda device: device.name)
+def test_models_become_a_device(device: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """FIELDSCRIBE_ACCEPT=1 writes the drafts; look at the difference."""
-    assert main(["import", "sunspec", str(FOLDER), "--device", device, *DRAFTS[device]]) == 0
+    assert main(["import", "sunspec", str(device.parent), "--device", device.name, *DRAFTS[device]]) == 0
     draft, report = capsys.readouterr()
-    path = FOLDER / f"{device}.draft"
+    path = device.with_suffix(".draft")
     if os.environ.get("FIELDSCRIBE_ACCEPT"):
         path.write_text(f"{draft}# {report}", "utf-8")
     assert f"{draft}# {report}" == path.read_text("utf-8")
@@ -74,24 +76,6 @@ def test_what_is_no_model_ends_in_a_message(
 
 
 @pytest.mark.parametrize(
-    ("kind", "size", "facts"),
-    [
-        *(("string", 1, "type: text\n  characters: 2\n"), ("sunssf", 1, "format: sunssf\n")),
-        *(("acc32", 2, "format: acc32\n"), ("acc32", 1, "length: 1\n"), ("count", 2, "length: 2\n")),
-        *(("int16", 2, "length: 2\n"), ("ipaddr", 2, "type: bytes\n"), ("ipaddr", 1, "length: 1\n")),
-    ],
-)
-def test_a_type_of_another_size_is_asked_about(
-    kind: str, size: int, facts: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    (tmp_path / "model_7.json").write_text(json.dumps(model(point(), point(name="B", type=kind, size=size))), "utf-8")
-    assert main(["import", "sunspec", str(tmp_path)]) == 0
-    draft = capsys.readouterr().out
-    assert facts in draft
-    assert (f"# ? type {kind}: {size} words" in draft) == facts.startswith("length")
-
-
-@pytest.mark.parametrize(
     ("words", "message"),
     [
         (["--models", "1,2"], "there is no model 2"),
@@ -120,7 +104,8 @@ def test_two_files_of_one_model(tmp_path: Path, capsys: pytest.CaptureFixture[st
 def test_the_page(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """What the page prints is what the commands print."""
     out = tmp_path / "inverter" / "device.yaml"
-    assert main(["import", "sunspec", str(FOLDER), *DRAFTS["inverter"], "--device", "inverter", "--out", str(out)]) == 0
+    options = [*DRAFTS[FOLDER / "inverter"], "--device", "inverter", "--out", str(out)]
+    assert main(["import", "sunspec", str(FOLDER), *options]) == 0
     assert main(["check", str(out)]) == 0
     printed = capsys.readouterr()
     page = (ROOT / "descriptions/language/importing.md").read_text("utf-8")

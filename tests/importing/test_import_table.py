@@ -90,18 +90,45 @@ def test_a_workbook(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     }
 
 
+BLOCK = re.compile(r"^=== (.*)\n((?:.*\n)+?)---\n((?: .*\n)*)", re.MULTILINE)
+LISTED = BLOCK.findall((FOLDER / "files.txt").read_text("utf-8"))
+"""The name of a file with options, its text, and the tables that are found in it, with their columns."""
+
+
+@pytest.mark.parametrize(("call", "text", "tables"), LISTED, ids=[call for call, *_ in LISTED])
+def test_the_tables_of_a_file(
+    call: str, text: str, tables: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    name, *options = call.split()
+    assert main(["import", "table", write(tmp_path, name, text.replace("<TAB>", "\t")), "--list", *options]) == 0
+    assert capsys.readouterr().out == tables
+
+
 @pytest.mark.parametrize(
-    ("suffix", "text", "title"),
+    ("rows", "options", "family", "space", "question"),
     [
-        ("tsv", "Address\tName (a; b; c)\n1\tSpeed; a; b\n", "Speed; a; b"),
-        ("tab", "Address\tName (a; b; c)\n1\tSpeed; a; b\n", "Speed; a; b"),
-        ("markdown", "# Drive\n|Address|Name|\n|1|Speed|\n", "Drive"),
-        ("htm", "<h2>Drive</h2><table><tr><th>Address<th>Name<tr><td>1<td>Speed</table>", "Drive"),
+        ("Address,Name\n1,a", "", "modbus", "holding", "nothing names the space: is it holding?"),
+        ("Address,Name\n1,a", "--family uss", "uss", "parameter", "nothing names the space: is it parameter?"),
+        ("Address,Name\n40001,a", "--base modicon", "modbus", "holding", ""),
+        ("Address,Name\n1,a", "--space discrete", "modbus", "discrete", ""),
+        ("PNU,Name\n1,a", "", "can", "parameter", ""),
+        ("Coil,Name\n1,a", "", "modbus", "coil", ""),
+        ("Address,Name,FC\n1,a,1", "--family can", "can", "parameter", "nothing names the space: is it parameter?"),
+        ("Coil,Name\n40001,a\n,b", "", "modbus", "coil", "are the addresses Modicon references?"),
+        ("Coil,Name\n40001,a\n5,b", "", "modbus", "coil", ""),
+        ("Coil,Name\n,a\n0,b", "", "modbus", "coil", ""),
     ],
 )
-def test_other_suffixes(suffix: str, text: str, title: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["import", "table", write(tmp_path, f"list.{suffix}", text)]) == 0
-    assert f"title: {{en: {title}}}\n" in capsys.readouterr().out
+def test_the_family_and_the_space_of_a_draft(  # noqa: PLR0917  # a table
+    rows: str, options: str, family: str, space: str, question: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """By what the table says, else by options; what neither says is asked."""
+    assert main(["import", "table", write(tmp_path, "a.csv", rows), "--device", "x", *options.split()]) == 0
+    draft = capsys.readouterr().out
+    assert f"\nfamily: {family}\n" in draft
+    assert f"\nspace: {space}\n" in draft
+    asked = re.findall(r"# \? ((?:nothing|the family|are the).*)", draft)
+    assert [text.partition("?")[0] for text in asked[:1]] == [question.rstrip("?")] * bool(question)
 
 
 def test_a_long_workbook_is_read_to_its_end(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -114,25 +141,6 @@ def test_a_long_workbook_is_read_to_its_end(tmp_path: Path, capsys: pytest.Captu
     book.save(tmp_path / "list.xlsx")
     assert main(["import", "table", str(tmp_path / "list.xlsx")]) == 0
     assert len(points(capsys.readouterr().out)) == 500
-
-
-@pytest.mark.parametrize(
-    ("headings", "code"),
-    [
-        ("Address,Name", 0),
-        ("Address,Name,foo,bar", 0),
-        ("Address,Name,foo,bar,baz", 1),
-        ("Address,foo", 1),
-        ("Address,16,Name", 1),
-        ("Remark,Unit", 1),
-        ("Name,Unit", 1),
-        ("A title\nAddress,Name,Unit", 0),
-        ("foo,foo,bar\nAddress,Name,Unit", 1),
-        ("Range,,Type,\nAddress,Name,,Unit", 0),
-    ],
-)
-def test_the_row_of_headings_has_no_number_and_is_known_by_half(headings: str, code: int, tmp_path: Path) -> None:
-    assert main(["import", "table", write(tmp_path, "rows.csv", f"{headings}\n1,Speed,2\n")]) == code
 
 
 def test_xlsx_needs_its_extra(
@@ -195,10 +203,23 @@ def test_the_base_of_addresses(
     assert [found[name] for name in "abc"] == addresses
 
 
-def test_addresses_that_may_be_references_are_asked_about(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    path = write(tmp_path, "base.csv", "Address,Name\n40001,a\n30002,b\n")
-    assert main(["import", "table", path]) == 0
-    assert "# ? are the addresses Modicon references? Then import with `--base modicon`\n" in capsys.readouterr().out
+def test_references_have_their_space_and_their_numbering(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Of five or six digits, the first of which is the space; the others count from 1."""
+    printed = ["00001", "000002", "10003", "100004", "30005", "300006", "40007", "465536"]
+    unclear = ["40000", "50001", "4001", "4000001"]
+    rows = "".join(f"{number},n{number}\n" for number in printed + unclear)
+    assert main(["import", "table", write(tmp_path, "a.csv", f"Address,Name\n{rows}"), "--base", "modicon"]) == 0
+    draft = capsys.readouterr().out
+    at = dict(re.findall(r"- name: n(\d+)\n.*\n  at: (.*)\n", draft))
+    assert [at[number] for number in printed + unclear] == ["0", "1", "2", "3", "4", "5", "6", "65535", *4 * "~"]
+    groups = dict(zip(re.findall("^space: (.*)", draft, re.MULTILINE), draft.split("\n---\n"), strict=True))
+    assert {space: re.findall("^numbering: (.*)", text, re.MULTILINE) for space, text in groups.items()} == {
+        "coil": ["{reference: wire + 1}"],
+        "discrete": ["{reference: wire + 10001, long_reference: wire + 100001}"],
+        "input": ["{reference: wire + 30001, long_reference: wire + 300001}"],
+        "holding": ["{reference: wire + 40001, long_reference: wire + 400001}"],
+    }
+    assert "printed: {long_reference: 465536}" in draft
 
 
 def test_numbers_with_hexadecimal_digits_leave_their_column_open(

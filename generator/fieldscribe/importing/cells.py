@@ -41,8 +41,8 @@ _UNIT_WORDS = {
 """Other spellings of units, in both languages."""
 
 _ACCESS_WORDS = {
-    "r": "r, ro, r/o, read, read only, readonly, lesen, nur lesen, l, get",
-    "w": "w, wo, w/o, write, write only, writeonly, schreiben, nur schreiben, set",
+    "r": "r, ro, r/o, read, read only, read-only, readonly, lesen, nur lesen, l, get",
+    "w": "w, wo, w/o, write, write only, write-only, writeonly, schreiben, nur schreiben, set",
     "rw": "rw, r/w, w/r, wr, r w, read/write, read write, read and write, readwrite, lesen/schreiben, l/s, r&w",
     "none": "-, —, –, none, n/a",
 }

@@ -186,11 +186,11 @@ def _read_type(point: DraftPoint, cells: Mapping[str, str]) -> None:
     elif "type" in cells and not kind:
         point.facts["type"] = "~"
         _ask_about(point, "type", cells)
-    length = read.quantity_in(cells.get("length", ""))
-    if length and kind is None and length[0] in (2, 4):
-        point.facts |= {"type": "~", "length": str(length[0])}
-        point.questions.append(f"the value has {length[0]} words: of which type, and which word comes first?")
-    elif length and length[0] != _WORDS_OF_TYPES.get(kind or "", length[0]):
+    length, text = read.quantity_in(cells.get("length", "")) or (None, "")
+    if kind is None and length in (2, 4) and not text:
+        point.facts |= {"type": "~", "length": str(length)}
+        point.questions.append(f"the value has {length} words: of which type, and which word comes first?")
+    elif "length" in cells and (text or length != _WORDS_OF_TYPES.get(kind or "", 1)):
         _ask_about(point, "length", cells)
 
 
@@ -208,11 +208,11 @@ def _read_scale(point: DraftPoint, cells: Mapping[str, str]) -> None:
         if quantity and not point.facts.keys() & {"scale", "printed"}:
             _read_step(point, quantity[0], role, cells)
     formula = one_line(cells.get("formula", ""))
-    if formula and "scale" not in point.facts:
+    if formula:
         is_ours = formula.startswith(("raw =", "value ="))
-        point.facts["scale"] = scalar(formula) if is_ours else "~"
-        if not is_ours:
+        if "scale" in point.facts or not is_ours:
             _ask_about(point, "formula", cells)
+        point.facts.setdefault("scale", scalar(formula) if is_ours else "~")
 
 
 def _read_step(point: DraftPoint, step: Fraction, role: str, cells: Mapping[str, str]) -> None:
@@ -226,8 +226,8 @@ def _read_step(point: DraftPoint, step: Fraction, role: str, cells: Mapping[str,
 
 def _read_range(point: DraftPoint, cells: Mapping[str, str], ranges: str | None) -> None:
     text = cells.get("range", "")
-    if not text and "least" in cells and "greatest" in cells:
-        text = f"{cells['least']} .. {cells['greatest']}"
+    if not text and cells.keys() & {"least", "greatest"}:
+        text = f"{cells.get('least', '')} .. {cells.get('greatest', '')}"
     found = read.range_in(text)
     if found is None:
         point.questions += [f"which range is `{one_line(text)}`?"] if text and not read.labels_in(text) else []
