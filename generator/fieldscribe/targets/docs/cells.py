@@ -5,13 +5,13 @@
 
 import re
 from collections.abc import Callable, Collection, Container, Iterable, Mapping, Sequence
-from functools import lru_cache
 from operator import attrgetter
 from typing import NamedTuple, TypeAlias, TypeVar
 
 from fieldscribe import wording
 from fieldscribe.facts.points import POINT
 from fieldscribe.facts.table import Context, Fact
+from fieldscribe.families import family
 from fieldscribe.model import Device, Point, Source
 from fieldscribe.text import markdown
 from fieldscribe.wording.rules import RenamedPoints
@@ -55,9 +55,12 @@ class Form(NamedTuple):
     narrow_link: Callable[[str, str], str]
     target: Callable[[str, str], str]
     narrow_target: Callable[[str, str], str]
-    source_cell: Callable[[Source, bool], str]
     line_break: str
     lay_out: Callable[[Sequence[Sequence[str]]], str]
+
+    def source(self, source: Source, with_document: bool) -> str:
+        """Return the place of a fact in the manual as a cell."""
+        return self.cell(source_text(source, with_document))
 
     def lines(self, *texts: str) -> str:
         """Return the non-empty texts as a cell, each on its own line."""
@@ -155,20 +158,7 @@ def source_text(source: Source, with_document: bool) -> str:
     return ", ".join(parts)
 
 
-def source_cell(source: Source, with_document: bool) -> str:
-    """Return the place of a fact in the manual as a cell; what facts of a page share is worked out once."""
-    if source.line is None:
-        return cell(source_text(source, with_document))
-    return f"{_before_line(source.document, source.section, source.page, with_document)}{source.line}"
-
-
-@lru_cache(maxsize=256)
-def _before_line(document: str, section: str | None, page: str | None, with_document: bool) -> str:
-    numbered = cell(source_text(Source(document, section, page, 0), with_document))
-    return numbered.removesuffix("0")
-
-
-MARKDOWN = Form(cell, paragraph, code, link, narrow_link, target, narrow_target, source_cell, LINE_BREAK, _lay_out)
+MARKDOWN = Form(cell, paragraph, code, link, narrow_link, target, narrow_target, LINE_BREAK, _lay_out)
 by_rows, table = MARKDOWN.by_rows, MARKDOWN.table
 
 
@@ -222,6 +212,11 @@ def reference_heads(points: Iterable[Point]) -> tuple[str, ...]:
     for point in points:
         heads |= dict.fromkeys(point.place.references)
     return tuple(heads)
+
+
+def computed_numberings(device: Device) -> Collection[str]:
+    """Return the numberings that the family computes from addresses."""
+    return family(device.family).numbers(device.points[0].space, 0) if device.points else ()
 
 
 def numbers_head(keys: Sequence[str]) -> str:

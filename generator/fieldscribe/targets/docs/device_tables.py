@@ -122,7 +122,7 @@ def frames(scope: DocsScope, form: Form) -> str:
             *(_meaning(name, raw, scope.by_name, form) for name, raw in frame.meaning.items())
         ),
         "Errata": lambda frame: form.lines(*(form.link("erratum", erratum) for erratum in frame.errata)),
-        "Source": lambda frame: form.source_cell(frame.source, scope.several),
+        "Source": lambda frame: form.source(frame.source, scope.several),
     }
     return form.table(scope.device.frames, columns, always=columns)
 
@@ -149,7 +149,7 @@ def errata(device: Device, form: Form) -> str:
         "Taken": lambda erratum: form.cell(erratum.taken),
         "Why": lambda erratum: form.cell(erratum.why),
         "Certainty": lambda erratum: form.cell(_certainty(erratum)),
-        "Source": lambda erratum: form.source_cell(erratum.source, len(device.documents) > 1),
+        "Source": lambda erratum: form.source(erratum.source, len(device.documents) > 1),
     }
     return form.table(device.errata, columns, always=columns)
 
@@ -280,7 +280,7 @@ def _messages(device: Device, form: Form) -> str:
         "Bytes": lambda message: "" if message.roles else str(message.length),
         "Every": lambda message: "" if message.every is None else f"{message.every} ms",
         **{f"Byte {place}": partial(_role, place) for place in range(count)},
-        "Source": lambda message: form.source_cell(message.source, len(device.documents) > 1),
+        "Source": lambda message: form.source(message.source, len(device.documents) > 1),
     }
     return form.table(device.messages, columns)
 
@@ -316,7 +316,7 @@ def _telegrams(device: Device, form: Form) -> str:
         "Direction": lambda telegram: form.cell(telegram.direction),
         "Words": lambda telegram: str(telegram.words),
         "Message": lambda telegram: form.link("message", telegram.message) if telegram.message else "",
-        "Source": lambda telegram: form.source_cell(telegram.source, len(device.documents) > 1),
+        "Source": lambda telegram: form.source(telegram.source, len(device.documents) > 1),
     }
     carried = {message.name for message in device.messages if not message.roles}
     return form.table([telegram for telegram in device.telegrams if telegram.message not in carried], columns)
@@ -347,7 +347,7 @@ def _commands(device: Device, form: Form) -> str:
         "Memory rated for": lambda command: "" if command.wears is None else f"{command.wears} writes",
         "Busy while": lambda command: form.cell(command.busy or ""),
         "Note": lambda command: form.cell(title_text(command.note)) if command.note else "",
-        "Source": lambda command: form.source_cell(command.source, len(device.documents) > 1),
+        "Source": lambda command: form.source(command.source, len(device.documents) > 1),
     }
     return form.table(device.commands, columns)
 
@@ -362,6 +362,6 @@ def _stepped(device: Device, form: Form) -> str:
             form.cell(f"{number}. {text}") for number, text in enumerate(steps_texts(command, points), 1)
         ),
         "Note": lambda command: form.cell(title_text(command.note)) if command.note else "",
-        "Source": lambda command: form.source_cell(command.source, len(device.documents) > 1),
+        "Source": lambda command: form.source(command.source, len(device.documents) > 1),
     }
     return form.table(device.stepped_commands, columns)

@@ -19,11 +19,11 @@ from posixpath import dirname, join, normpath
 
 from fieldscribe.code_view import for_code
 from fieldscribe.families import family
-from fieldscribe.model import Device, Erratum, Frame, Message, Source
+from fieldscribe.model import Device, Erratum, Frame, Message
 from fieldscribe.resources import Render, templates_dir
 from fieldscribe.targets import knows
 from fieldscribe.targets.docs import device_tables
-from fieldscribe.targets.docs.cells import DocsScope, Form, source_text
+from fieldscribe.targets.docs.cells import DocsScope, Form
 from fieldscribe.targets.docs.device_tables import bus_view, identifier_text, role_text
 from fieldscribe.targets.docs.html_points import Points
 from fieldscribe.targets.docs.tables import items_of
@@ -131,15 +131,11 @@ def _target(kind: str, name: str) -> str:
     return _marked(_TARGET + kind, name)
 
 
-def _source_cell(source: Source, with_document: bool) -> str:
-    return line(source_text(source, with_document))
-
-
 def _lay_out(rows: Sequence[Sequence[str]]) -> str:
     return _ROW.join(_CELL.join(row) for row in rows)
 
 
-MARKED = Form(line, line, _code, _marked, _marked, _target, _target, _source_cell, "\n", _lay_out)
+MARKED = Form(line, line, _code, _marked, _marked, _target, _target, "\n", _lay_out)
 
 
 _SCRIPTS = ("shared.js", "search.js", "drawings.js", "snippets.js", "exchange.js", "calculator.js", "point.js")

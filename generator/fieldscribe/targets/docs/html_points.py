@@ -1,7 +1,7 @@
 """The points for the HTML page: short rows of numbers and texts, and pools of what many of them share."""
 
 import json
-from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from operator import attrgetter
 from typing import Any
 
@@ -9,9 +9,9 @@ from fieldscribe import wording
 from fieldscribe.facts.points import POINT
 from fieldscribe.facts.table import Fact
 from fieldscribe.families import family
-from fieldscribe.model import Device, Entry, Enum, Flag, Point, Source, Special, Titles
+from fieldscribe.model import Entry, Enum, Flag, Point, Source, Special, Titles
 from fieldscribe.model.point import bits_of
-from fieldscribe.targets.docs.cells import DocsScope, reference_heads
+from fieldscribe.targets.docs.cells import DocsScope, computed_numberings, reference_heads
 from fieldscribe.targets.python.syntax import attribute
 from fieldscribe.targets.rust.literals import type_name
 from fieldscribe.targets.typescript.syntax import attribute as constant
@@ -68,7 +68,7 @@ class Points:
 
     def __init__(self, scope: DocsScope, languages: Sequence[str]) -> None:
         self._scope, self._languages, device = scope, languages, scope.device
-        self.numberings = tuple(dict.fromkeys((*reference_heads(device.points), *_computed(device))))
+        self.numberings = tuple(dict.fromkeys((*reference_heads(device.points), *computed_numberings(device))))
         self._numbers_at = family(device.family).numbers
         self._kinds, self._limits, self._enums, self._words, self._codes = (Pool() for _ in range(5))
         self._documents = {document.id: place for place, document in enumerate(device.documents)}
@@ -207,11 +207,6 @@ class Points:
     def _code(self, special: Special, width: int) -> list[object]:
         numbers, remarks = wording.special_numbers(special, width), wording.special_remarks(special)
         return [numbers, line(special.name), self.titles(special.title), remarks]
-
-
-def _computed(device: Device) -> Mapping[str, int]:
-    """Return the numberings that the family computes."""
-    return family(device.family).numbers(device.points[0].space, 0) if device.points else {}
 
 
 def _identifiers(point: Point) -> list[object]:

@@ -12,6 +12,7 @@ from fieldscribe.grouping import grouped
 from fieldscribe.model import Enum, Group, Point
 from fieldscribe.targets.docs.cells import (
     LINE_BREAK,
+    MARKDOWN,
     DocsScope,
     Remarks,
     anchor,
@@ -27,11 +28,10 @@ from fieldscribe.targets.docs.cells import (
     paragraph,
     place_text,
     reference_heads,
-    source_cell,
     source_text,
     target,
 )
-from fieldscribe.targets.docs.words import WordView, word_views
+from fieldscribe.targets.docs.words import word_views
 from fieldscribe.wording.numbers import fixed_rule
 from fieldscribe.wording.rules import RenamedPoints
 
@@ -50,29 +50,7 @@ _KEEPS = {
 }
 
 
-class ListView(NamedTuple):
-    """A long list of names, and the points that use it."""
-
-    anchor: str
-    points: str
-    rows: str
-
-
-class GroupView(NamedTuple):
-    """A group of points on the page."""
-
-    anchor: str
-    heading: str
-    name: str
-    note: str
-    facts: str
-    points: str
-    more: str
-    words: tuple[WordView, ...]
-    lists: tuple[ListView, ...]
-
-
-def group_views(scope: DocsScope) -> Iterator[GroupView]:
+def group_views(scope: DocsScope) -> Iterator[dict[str, object]]:
     """Yield all groups that have points or a note, in the author's order."""
     members = grouped((point.terms.group, point) for point in scope.device.points)
     rows = _Rows(scope)
@@ -81,7 +59,7 @@ def group_views(scope: DocsScope) -> Iterator[GroupView]:
             yield _group_view(group, members.get(group.name, []), rows)
 
 
-def _group_view(group: Group, points: list[Point], rows: _Rows) -> GroupView:
+def _group_view(group: Group, points: list[Point], rows: _Rows) -> dict[str, object]:
     spaces = {point.terms.space for point in points}
     source = source_text(group.source, rows.scope.several)
     facts = [f"{len(points)} point{'' if len(points) == 1 else 's'}"]
@@ -90,17 +68,17 @@ def _group_view(group: Group, points: list[Point], rows: _Rows) -> GroupView:
     facts += [] if base is None else [f"addresses count from {wording.base_text(base)}"]
     facts += [f"source: {source}"] if source else []
     lists = _Lists()
-    return GroupView(
-        anchor=anchor("group", group.name),
-        heading=cell(wording.title_text(group.title)),
-        name=code(group.name),
-        note=paragraph(wording.title_text(group.note)) if group.note else "",
-        facts=cell("; ".join(facts)),
-        points=rows.table(points, lists, with_space=len(spaces) > 1),
-        more="".join(map(rows.more, filter(rows.has_more, points))),
-        words=tuple(word_views(points)),
-        lists=tuple(lists.views()),
-    )
+    return {
+        "anchor": anchor("group", group.name),
+        "heading": cell(wording.title_text(group.title)),
+        "name": code(group.name),
+        "note": paragraph(wording.title_text(group.note)) if group.note else "",
+        "facts": cell("; ".join(facts)),
+        "points": rows.table(points, lists, with_space=len(spaces) > 1),
+        "more": "".join(map(rows.more, filter(rows.has_more, points))),
+        "words": list(word_views(points)),
+        "lists": list(lists.views()),
+    }
 
 
 class _Cells(NamedTuple):
@@ -169,7 +147,7 @@ class _Rows:
             limits[1],
             cells.scale,
             LINE_BREAK.join(filter(None, remarks)),
-            source_cell(point.source, self.scope.several),
+            MARKDOWN.source(point.source, self.scope.several),
         )
 
     def _shared_cells(self, point: Point) -> _Cells:
@@ -276,7 +254,7 @@ class _Lists:
             else f"numbers as of {narrow_link('point', first)}"
         )
 
-    def views(self) -> Iterator[ListView]:
+    def views(self) -> Iterator[dict[str, str]]:
         """Yield the lists that go below the table."""
         for first, (enum, users) in self._users.items():
             points = ", ".join(link("point", item) for item in users)
@@ -284,7 +262,8 @@ class _Lists:
                 (str(entry.raw), code(entry.name), cell(wording.title_text(entry.title)), cell(entry.quantity or ""))
                 for entry in enum.entries
             ]
-            yield ListView(anchor("numbers", first), points, by_rows(("Raw", "Name", "Title", "Quantity"), rows))
+            table = by_rows(("Raw", "Name", "Title", "Quantity"), rows)
+            yield {"anchor": anchor("numbers", first), "points": points, "rows": table}
 
 
 def _listed(enum: Enum, *, patterns: bool) -> str:

@@ -18,15 +18,7 @@ _SIGN, _BORDERS = 9, 18
 """Estimated widths in pixels: of a row on a page of 1,280, of a character, of the borders of a cell."""
 
 
-class WordView(NamedTuple):
-    """The bits of a word, and the points with exactly these bits."""
-
-    points: str
-    bits: str
-    flags: str
-
-
-def word_views(points: Iterable[Point]) -> Iterator[WordView]:
+def word_views(points: Iterable[Point]) -> Iterator[dict[str, str]]:
     """Yield the words of a group in the order of their first points; bits that several points share are drawn once."""
     words: dict[object, list[Point]] = {}
     for point in points:
@@ -35,7 +27,7 @@ def word_views(points: Iterable[Point]) -> Iterator[WordView]:
             words.setdefault(key, []).append(point)
     for users in words.values():
         named = ", ".join(target("bits", point.item) for point in users)
-        yield WordView(named, _drawn(users[0]), _flag_table(users[0]))
+        yield {"points": named, "bits": _drawn(users[0]), "flags": _flag_table(users[0])}
 
 
 class _Field(NamedTuple):
