@@ -19,10 +19,6 @@ from fieldscribe.resources import render
 from fieldscribe.targets import c, python, rust, typescript
 from fieldscribe.targets.c import point_views
 from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplate, TextTemplates, placeholders
-from fieldscribe.targets.python import views as python_views
-from fieldscribe.targets.rust import conformance, point_macros
-from fieldscribe.targets.rust import enums as rust_enums
-from fieldscribe.targets.typescript import views as typescript_views
 from fieldscribe.text import c_comment, line
 from support.described import SHIPPED, made, shipped
 from support.models import (
@@ -80,8 +76,6 @@ def test_other_rare_signs_of_a_text_are_no_placeholders() -> None:
 
 
 LANGUAGES = (c, python, rust, typescript)
-FILLED = (point_views, python_views, conformance, point_macros, rust_enums, typescript_views)
-"""The modules that fill templates."""
 
 QUICK = ("kitchen_sink", "kitchen_uss", "kitchen_can")
 DEVICES: dict[str, Callable[[], Device]] = {
@@ -111,9 +105,8 @@ def unshared(device: Device, monkeypatch: pytest.MonkeyPatch) -> dict[str, str]:
     numbers = count()
     with monkeypatch.context() as patch:
         patch.setattr(TemplateKeys, "of", lambda *_: next(numbers))
-        for module in FILLED:
-            patch.setattr(module, "placeholders", tuple)
-        patch.setattr(TextTemplates, "fill", lambda _, _key, fields, lay_out: TextTemplate(lay_out()).fill(fields))
+        patch.setattr(point_views, "placeholders", tuple)
+        patch.setattr(TextTemplates, "fill", lambda _, _key, fields, lay_out: lay_out(fields))
         return texts(device)
 
 

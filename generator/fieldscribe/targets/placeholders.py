@@ -37,11 +37,13 @@ class TextTemplates:
     def __init__(self) -> None:
         self._templates: dict[Hashable, TextTemplate] = {}
 
-    def fill(self, key: Hashable, fields: Sequence[str], lay_out: Callable[[], str]) -> str:
-        """Return the text of a key with these fields; `lay_out` returns the text with placeholders."""
+    def fill(self, key: Hashable, fields: Sequence[str], lay_out: Callable[[Sequence[str]], str]) -> str:
+        """Return the text of a key with these fields; `lay_out` returns it with the fields or placeholders for them."""
+        if len(fields) > MOST_FIELDS:
+            return lay_out(fields)
         template = self._templates.get(key)
         if template is None:
-            template = self._templates[key] = TextTemplate(lay_out())
+            template = self._templates[key] = TextTemplate(lay_out(placeholders(fields)))
         return template.fill(fields)
 
 

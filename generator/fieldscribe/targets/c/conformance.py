@@ -62,7 +62,7 @@ def adapters(
     points: Iterable[GeneratedPoint], scope: HeaderScope, sections: Collection[Frames], render: Render
 ) -> Iterator[str]:
     """Yield the functions of points that answer vectors."""
-    return texts_of(points, lambda view: _adapter(view, scope, sections, render))
+    return texts_of(points, lambda view, _: _adapter(view, scope, sections, render))
 
 
 def _adapter(view: PointView, scope: HeaderScope, sections: Iterable[Frames], render: Render) -> str:

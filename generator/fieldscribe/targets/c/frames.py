@@ -77,11 +77,11 @@ class Frames:
 
     def text(self, render: Render, scope: HeaderScope | None) -> str:
         """Return the descriptors of all points, and with a scope the functions that read and write one."""
-        return "".join(texts_of(self._points, lambda view: self._constants(view, render, scope)))
+        return "".join(texts_of(self._points, lambda view, _: self._constants(view, render, scope)))
 
     def rows(self, scope: HeaderScope) -> str:
         """Return the macros of rows, those of old names with them."""
-        return "".join(texts_of(self._points, lambda view: folded(_macros(self._rows(view, scope)))))
+        return "".join(texts_of(self._points, lambda view, _: folded(_macros(self._rows(view, scope)))))
 
     def _rows(self, view: PointView, scope: HeaderScope) -> list[Define]:
         row = self._made[view].row

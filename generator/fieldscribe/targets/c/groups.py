@@ -18,7 +18,7 @@ from fieldscribe.targets.c.point_views import GeneratedPoint
 from fieldscribe.targets.c.scope import HeaderScope, raw_type
 from fieldscribe.targets.c.views import PointView
 from fieldscribe.targets.c.word_functions import has_words
-from fieldscribe.targets.placeholders import TextTemplates, placeholders
+from fieldscribe.targets.placeholders import TextTemplates
 from fieldscribe.text import c_comment, c_string
 
 _ITSELF = Line(1, 0, 1)
@@ -113,12 +113,12 @@ class Members:
         The position takes the place of the comment among the fields. A text that is read backwards has no members.
         """
         at, (point, view, fields) = str(position), each
-        lay_out = partial(self._lay_out, point, view, placeholders((at,))[0])
+        lay_out = partial(self._lay_out, point, view)
         declarations, statements, cases = self._texts.fill((view, len(at)), (at, *fields[1:]), lay_out).split("\0")
         return declarations, statements, cases
 
-    def _lay_out(self, point: Point, view: PointView, at: str) -> str:
-        members = list(_members(point, view, f"words[{at}]"))
+    def _lay_out(self, point: Point, view: PointView, fields: Sequence[str]) -> str:
+        members = list(_members(point, view, f"words[{fields[0]}]"))
         texts = [declaration for declaration, _ in members], [statement for _, statement in members]
         return "\0".join(map("\n".join, (*texts, _cases(point, view, self.scope))))
 

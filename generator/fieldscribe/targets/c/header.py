@@ -113,7 +113,7 @@ def _points_by_group(
     device: Device, points: Iterable[GeneratedPoint], scope: HeaderScope, render: Render
 ) -> dict[str, list[str]]:
     """Return the texts of each group's points, with their functions in floating point after a mark."""
-    texts = texts_of(points, lambda view: _point_text(view, scope, render))
+    texts = texts_of(points, lambda view, _: _point_text(view, scope, render))
     by_group: dict[str, list[str]] = {group.name: [] for group in device.groups}
     for point in device.points:
         terms = point.terms

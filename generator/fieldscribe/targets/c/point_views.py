@@ -65,8 +65,8 @@ class LimitFields(NamedTuple):
     in_table: bool
 
 
-def texts_of(points: Iterable[GeneratedPoint], lay_out: Callable[[PointView], str]) -> Iterator[str]:
-    """Yield one part of the text of each point; it is laid out once for each view."""
+def texts_of(points: Iterable[GeneratedPoint], lay_out: Callable[[PointView, object], str]) -> Iterator[str]:
+    """Yield one part of the text of each point; it is laid out once for each view, which has the fields."""
     texts = TextTemplates()
     for _, view, fields in points:
         yield texts.fill(view, fields, partial(lay_out, view))

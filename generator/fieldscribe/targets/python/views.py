@@ -7,13 +7,13 @@ docstring.
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Callable, Hashable, Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.model import Command, Device, Entry, Flag, Point, SteppedCommand, Variant
 from fieldscribe.resources import Render
-from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplates, placeholders
+from fieldscribe.targets.placeholders import TextTemplates
 from fieldscribe.targets.python.device import RUNTIME, PythonFamily, in_python
 from fieldscribe.targets.python.syntax import (
     DOC,
@@ -106,7 +106,7 @@ def enums_context(device: Device, names: Identifiers, render: Render) -> dict[st
 
 
 class _Classes:
-    """Builds the texts of classes, laid out once for all with the same members. `used` are names of the runtime."""
+    """Builds the texts of classes. `used` are names of the runtime."""
 
     def __init__(self, names: Identifiers, render: Render) -> None:
         self.texts: list[str] = []
@@ -114,13 +114,12 @@ class _Classes:
         self._added: set[str] = set()
         self.composes = False
         self._names, self._render = names, render
-        self._templates = TextTemplates()
 
     def add_enum(self, name: str, title: str, entries: tuple[Entry, ...]) -> None:
         """Add the class of named numbers."""
         self._added.add(name)
         self.used.add("NamedNumber")
-        self._add(id(entries), (name, _sentence(title)), lambda name, text: _enum(name, text, entries))
+        self._add(_enum(name, _sentence(title), entries))
 
     def add_word(self, point: Point) -> None:
         """Add the class of a word of flags, after those of the numbers of its flags."""
@@ -132,18 +131,10 @@ class _Classes:
             self.used.add("Flag" if flag.width == 1 else "Field")
         self.used.add("Word")
         self.composes |= point.writable
-        name = self._names.word_class(point)
-        key = (id(point.flags), classes, point.fixed, point.writable, len(name))
-        self._add(key, (name, _sentence(point.title["en"])), lambda name, text: _word(name, text, point, classes))
+        self._add(_word(self._names.word_class(point), _sentence(point.title["en"]), point, classes))
 
-    def _add(self, key: Hashable, words: tuple[str, str], view: Callable[[str, str], EnumClass]) -> None:
-        """Add the class of a view that is made with placeholders for these words."""
-
-        def lay_out() -> str:
-            name, sentence = placeholders(words)
-            return self._render("python/enum.py.j2", {"class": view(name, sentence)})
-
-        self.texts.append(self._templates.fill(key, words, lay_out))
+    def _add(self, view: EnumClass) -> None:
+        self.texts.append(self._render("python/enum.py.j2", {"class": view}))
 
 
 def _enum(name: str, sentence: str, entries: tuple[Entry, ...]) -> EnumClass:
@@ -298,10 +289,8 @@ class Attributes:
             key, (remarks_text(point, scope, _KEEP), _errata(point, scope))
         )
         fields = self._fields(point, limits, remarks)
-        if len(fields) > MOST_FIELDS:
-            return self.text(self._view(point, fields))
         whole = key, tuple(map(len, fields[_FREE:]))
-        return self._texts.fill(whole, fields, lambda: self.text(self._view(point, placeholders(fields))))
+        return self._texts.fill(whole, fields, lambda fields: self.text(self._view(point, fields)))
 
     def by_variant(self, points: Mapping[Variant, Point]) -> str:
         """Return the attribute of points that have one name in different variants."""
@@ -324,7 +313,7 @@ class Attributes:
             *texts_of(point, numbers_of(point, self._scope), limits[1], (python_string, leaf)),
         )
 
-    def _view(self, point: Point, texts: tuple[str, ...]) -> AttributeView:
+    def _view(self, point: Point, texts: Sequence[str]) -> AttributeView:
         made = call_of(point, fields_of_texts(texts[2:], point), self._scope)
         return attribute_view(texts[0], made, texts[1], old_attributes(point, self._scope))
 

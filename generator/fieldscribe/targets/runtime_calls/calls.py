@@ -4,7 +4,7 @@ The Python and TypeScript targets write these calls as text, laid out once for m
 each; `live` evaluates them. Docstrings have sentences about points, named numbers and flags.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -202,7 +202,7 @@ def end_texts(point: Point, leaf: Callable[[Leaf], str]) -> tuple[str, ...]:
     return tuple([leaf(end) for interval in limits.fixed for end in interval])
 
 
-def fields_of_texts(texts: tuple[str, ...], point: Point) -> PointFields:
+def fields_of_texts(texts: Sequence[str], point: Point) -> PointFields:
     """Return the fields of a point that have these texts, or placeholders for them."""
     fields = tuple(map(Name, texts))
     addresses = _SINGLE + len(point.place.addresses)

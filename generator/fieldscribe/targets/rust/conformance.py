@@ -4,14 +4,14 @@
 same template key.
 """
 
-from collections.abc import Hashable, Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from typing import NamedTuple
 
 from fieldscribe.families import family
 from fieldscribe.grouping import grouped
 from fieldscribe.model import Device, Point, Text
-from fieldscribe.targets.placeholders import TextTemplates, placeholders
+from fieldscribe.targets.placeholders import TextTemplates
 from fieldscribe.targets.rust.enums import getter_name
 from fieldscribe.targets.rust.layout import Lines
 from fieldscribe.targets.rust.literals import type_name, value_name
@@ -55,35 +55,22 @@ def arms(tables: Iterable[Table]) -> Iterator[tuple[str, Lines]]:
 def _rows(scope: CrateScope) -> Rows:
     """Return all rows of all points, each in its table."""
     rows: Rows = {}
-    tables_of: dict[Hashable, dict[Tokens, list[list[str]]]] = {}
     texts = TextTemplates()
     for subject in scope.subjects:
         enum = subject.enum
         fields = (subject.item, subject.name, "" if enum is None else type_name(enum.name))
-        key = subject.key, *map(len, fields)
-        tables = tables_of.get(key)
-        if tables is None:
-            tables = tables_of[key] = _tables_by_row(subject, fields, scope, rows)
-        text = texts.fill(key, fields, partial(_text_of, tables))
-        for row, tables_of_row in zip(text.split(END), tables.values(), strict=True):
-            for table in tables_of_row:
-                table.append(row)
+        text = texts.fill((subject.key, *map(len, fields)), fields, partial(_laid_out, subject, scope))
+        for row in text.split(END):
+            kind, run, tokens = row.split("\0")
+            rows.setdefault(Spot(kind, run), []).append(tokens)
     return rows
 
 
-def _tables_by_row(
-    subject: CratePoint, fields: Iterable[str], scope: CrateScope, rows: Rows
-) -> dict[Tokens, list[list[str]]]:
-    """Return the different rows of a point, with placeholders, and the tables of `rows` to which each belongs."""
-    item, name, enum = placeholders(fields)
-    tables: dict[Tokens, list[list[str]]] = {}
-    for spot, row in rows_of(subject.renamed(item, name), enum, scope):
-        tables.setdefault(row, []).append(rows.setdefault(spot, []))
-    return tables
-
-
-def _text_of(rows: Iterable[Tokens]) -> str:
-    return END.join(map(row_text, rows))
+def _laid_out(subject: CratePoint, scope: CrateScope, fields: Sequence[str]) -> str:
+    """Return the rows of a point with these fields, each after its spot."""
+    item, name, enum = fields
+    found = rows_of(subject.renamed(item, name), enum, scope)
+    return END.join([f"{kind}\0{run}\0{row_text(row)}" for (kind, run), row in found])
 
 
 def _protocol(device: Device) -> Iterator[Table]:

@@ -1,13 +1,11 @@
 """Enums, and words of flags."""
 
 from collections.abc import Iterable, Iterator
-from functools import partial
 from typing import Any
 
 from fieldscribe.arithmetic.words import mask_of
-from fieldscribe.model import Device, Entry, Enum, Flag
+from fieldscribe.model import Device, Entry, Flag
 from fieldscribe.resources import Render
-from fieldscribe.targets.placeholders import TextTemplates, placeholders
 from fieldscribe.targets.rust.layout import Item, binding, called, calls, comparison, sentence, signature
 from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name, variant_name
 from fieldscribe.targets.rust.scope import CratePoint, CrateScope
@@ -22,22 +20,14 @@ UNKNOWN = ("Unknown", "Other", "Unnamed", "Number")
 
 def enum_texts(device: Device, scope: CrateScope, render: Render) -> Iterator[str]:
     """Yield the enums that generated points use, in the device's order."""
-    templates = TextTemplates()
-
-    def lay_out(enum: Enum, raw: str, words: tuple[str, str]) -> str:
-        name, doc = placeholders(words)
-        entries = tuple(map(_entry, enum.entries))
-        variants = {entry["name"] for entry in entries}
-        unknown = next(candidate for candidate in UNKNOWN if candidate not in variants)
-        return render("rust/enum.rs.j2", {"doc": doc, "name": name, "raw": raw, "entries": entries, "unknown": unknown})
-
     for enum in device.enums:
         raw = scope.enums.get(enum.name)
         if raw is not None:
-            words = (type_name(enum.name), sentence(enum.name))
-            key = (raw, len(words[0]), tuple([(entry.name, entry.raw) for entry in enum.entries]))
-            text = templates.fill(key, words, partial(lay_out, enum, raw, words))
-            yield text + old_names_text(words[0], enum.was, render)
+            name, entries = type_name(enum.name), tuple(map(_entry, enum.entries))
+            variants = {entry["name"] for entry in entries}
+            unknown = next(candidate for candidate in UNKNOWN if candidate not in variants)
+            view = {"doc": sentence(enum.name), "name": name, "raw": raw, "entries": entries, "unknown": unknown}
+            yield render("rust/enum.rs.j2", view) + old_names_text(name, enum.was, render)
 
 
 def old_names_text(name: str, old_names: Iterable[str], render: Render) -> str:
@@ -69,19 +59,13 @@ def constant_name(flag: Flag) -> str:
 
 def word_texts(scope: CrateScope, render: Render) -> Iterator[str]:
     """Yield the words with named bits."""
-    templates = TextTemplates()
-
-    def lay_out(subject: CratePoint, words: tuple[str, str]) -> str:
-        return render("rust/word.rs.j2", _word(subject, *placeholders(words)))
-
     for subject in scope.subjects:
         if subject.point.form == "flags":
-            words = (subject.name, sentence(subject.item))
-            text = templates.fill((subject.key, len(subject.name)), words, partial(lay_out, subject, words))
+            text = render("rust/word.rs.j2", _word(subject))
             yield text + old_names_text(subject.name, subject.point.old_items, render)
 
 
-def _word(subject: CratePoint, name: str, doc: str) -> dict[str, object]:
+def _word(subject: CratePoint) -> dict[str, object]:
     """Return a word of flags for its template; the bits are held in the unsigned type of the raw number's width.
 
     `all_false` is the word in which no flag is true, `printed` the lines that print the word.
@@ -90,13 +74,13 @@ def _word(subject: CratePoint, name: str, doc: str) -> dict[str, object]:
     bits, flags = f"u{width}", tuple(_flag(flag, width) for flag in all_flags)
     low = sum(1 << flag.low for flag in all_flags if flag.width == 1 and not flag.active)
     return {
-        "doc": doc,
-        "name": name,
+        "doc": sentence(subject.item),
+        "name": subject.name,
         "raw": subject.raw,
         "bits": bits,
         "all_false": mask(low, bits) if low else "0",
         "flags": flags,
-        "printed": (*binding(4, Item("const NAME", "&'static str"), f'"{name}"'), *_table(all_flags, flags)),
+        "printed": (*binding(4, Item("const NAME", "&'static str"), f'"{subject.name}"'), *_table(all_flags, flags)),
     }
 
 

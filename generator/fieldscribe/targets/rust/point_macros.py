@@ -8,7 +8,7 @@ from fieldscribe.arithmetic.texts import epoch_in_unix
 from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.model import Point
 from fieldscribe.resources import Render
-from fieldscribe.targets.placeholders import TextTemplates, placeholders
+from fieldscribe.targets.placeholders import TextTemplates
 from fieldscribe.targets.rust.enums import old_names_text
 from fieldscribe.targets.rust.layout import PointDoc, filled
 from fieldscribe.targets.rust.literals import integer, mask, raw_literal, type_name, type_range
@@ -69,7 +69,7 @@ class _PointTemplates:
         fields, traits = self._fields(subject), tuple(self._traits(subject, self._scope))
         whole = subject.key, traits, fields.alias == "", fields.low == "", _is_long(subject, fields, self._scope)
         return self._templates.fill(
-            whole, fields, lambda: self._laid_out(subject, MacroFields._make(placeholders(fields)), traits, whole[-1])
+            whole, fields, lambda fields: self._laid_out(subject, MacroFields._make(fields), traits, whole[-1])
         )
 
     def _fields(self, subject: CratePoint) -> MacroFields:

@@ -4,12 +4,12 @@ The first has a constant for each point and command; the main module the class o
 options; the last names for numbers, and words of flags.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.model import Device, Entry, Flag, Point
-from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplates, placeholders
+from fieldscribe.targets.placeholders import TextTemplates
 from fieldscribe.targets.runtime_calls.calls import (
     call_of,
     class_facts,
@@ -131,13 +131,10 @@ class Points:
         leaf = self.layout.leaf
         own = texts_of(point, numbers_of(point, self.scope), end_texts(point, leaf), (js_string, leaf))
         fields = (attribute(point.item), js_string(point.name), *own)
-        if len(fields) > MOST_FIELDS:
-            return self._laid_out(point, fields)
-        return self._texts.fill(
-            (self._keys[id(point)], len(fields)), fields, lambda: self._laid_out(point, placeholders(fields))
-        )
+        key = self._keys[id(point)], len(fields)
+        return self._texts.fill(key, fields, lambda fields: self._laid_out(point, fields))
 
-    def _laid_out(self, point: Point, texts: tuple[str, ...]) -> str:
+    def _laid_out(self, point: Point, texts: Sequence[str]) -> str:
         made = call_of(point, fields_of_texts(texts[2:], point), self.scope)
         maker, layout = self.layout.maker(made.name), self.layout
         facts: dict[str, Node] = {"name": Name(texts[1])}
