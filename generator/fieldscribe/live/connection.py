@@ -26,9 +26,9 @@ from fieldscribe.diagnostics import UnclearError
 from fieldscribe.live.lines import LineAddress, OpenLine, families_of, require_line
 from fieldscribe.live.readings import GOOD, Choice, Reader
 from fieldscribe.model import Device, Entry, Point
-from fieldscribe.targets.python.device import in_python
-from fieldscribe.targets.python.syntax import Identifiers, attribute, parameter, scope_of, word_attribute
+from fieldscribe.targets.python.syntax import Identifiers, attribute, in_python, parameter, scope_of, word_attribute
 from fieldscribe.targets.python.views import reader
+from fieldscribe.targets.runtime_calls import Call, Hex, Name, Node, PointName, Scope
 from fieldscribe.targets.runtime_calls.calls import (
     attribute_of,
     call_of,
@@ -41,7 +41,6 @@ from fieldscribe.targets.runtime_calls.calls import (
     readable_groups,
     variants_call,
 )
-from fieldscribe.targets.runtime_calls.scope import Call, Hex, Name, Node, PointName, Scope
 from fieldscribe.text import shortened, upper
 
 __all__ = ["Answer", "AnyDevice", "Connection", "FieldscribeError", "Scanner", "advice", "read_units"]

@@ -1,15 +1,18 @@
 """Python as this target writes it: the final identifiers of a device, and expressions laid out as formatters do.
 
-An expression is on one line if it fits, else it has a line for each item. `live` uses the same identifiers.
+An expression is on one line if it fits, else it has a line for each item. `live` uses the same identifiers. A family
+offers the target a `PythonFamily`.
 """
 
 import re
 import textwrap
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import cached_property
+from typing import NamedTuple
 
+from fieldscribe.families import family
 from fieldscribe.model import Device
-from fieldscribe.targets.runtime_calls.scope import Branch, Call, ClassNames, Hex, Leaf, Name, Node, Scope
+from fieldscribe.targets.runtime_calls import Branch, Call, ClassNames, Hex, Leaf, Name, Node, Scope
 from fieldscribe.text import pascal, python_doc, python_string
 
 WIDTH = 88
@@ -52,6 +55,54 @@ _ATTRIBUTE_TAKEN = _RESERVED | DEVICE_MEMBERS | HELPERS
 _WORD_TAKEN = _RESERVED | WORD_MEMBERS
 _PARAMETER_TAKEN = _RESERVED | {"link", "self", "transport", "unit", "variants"}
 _DIGITS = re.compile(r"([0-9]+)")
+
+
+# The family.
+
+
+RUNTIME = "fieldscribe_runtime"
+"""The package that all generated devices share."""
+
+
+class Line(NamedTuple):
+    """A transport of the runtime for examples: its module, and expressions that open it, for both kinds of devices."""
+
+    module: str
+    blocking: str
+    awaiting: str
+    first: tuple[str, ...] = ()
+    """Further lines of import that the expressions need."""
+    settings: tuple[str, ...] = ()
+    """Further arguments of the device after the line and the unit."""
+
+    def imports(self, wait: str) -> tuple[str, ...]:
+        """Return the classes that the expression names, in order."""
+        classes = [part.partition("(")[0] for part in (self.blocking, self.awaiting)]
+        if not wait:
+            return (classes[0],)
+        return (classes[1], classes[0]) if f"({classes[0]}(" in self.awaiting else (classes[1],)
+
+
+class PythonFamily(NamedTuple):
+    """What generated modules import for a family.
+
+    `module` of the runtime has the names in `exports`, the class `device` and its `transport`, and both with `Async`
+    before their names. `line` returns the usual transport. `settings` are further parameters of a
+    device's constructor (name, class).
+    """
+
+    module: str
+    exports: frozenset[str]
+    device: str
+    transport: str
+    line: Callable[[Device], Line]
+    settings: tuple[tuple[str, str], ...] = ()
+
+
+def in_python(device: Device) -> PythonFamily:
+    """Return the part `targets.calls` of the device's family."""
+    part: PythonFamily = family(device.family).part("targets.calls").IN_PYTHON
+    return part
 
 
 # Identifiers.

@@ -14,15 +14,17 @@ from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.model import Command, Device, Entry, Flag, Point, SteppedCommand, Variant
 from fieldscribe.resources import Render
 from fieldscribe.targets.placeholders import TextTemplates
-from fieldscribe.targets.python.device import RUNTIME, PythonFamily, in_python
 from fieldscribe.targets.python.syntax import (
     DOC,
+    RUNTIME,
     WIDTH,
     Identifiers,
+    PythonFamily,
     arguments,
     attribute,
     comment,
     docstring,
+    in_python,
     laid_out,
     leaf,
     scope_of,
@@ -30,6 +32,7 @@ from fieldscribe.targets.python.syntax import (
     word_attribute,
     wrapped,
 )
+from fieldscribe.targets.runtime_calls import Call, Hex, Name, Node, Scope, call
 from fieldscribe.targets.runtime_calls.calls import (
     attribute_of,
     call_of,
@@ -51,7 +54,6 @@ from fieldscribe.targets.runtime_calls.calls import (
     variants_call,
 )
 from fieldscribe.targets.runtime_calls.point_expressions import NUMBERED, addresses_of
-from fieldscribe.targets.runtime_calls.scope import Call, Hex, Name, Node, Scope, call
 from fieldscribe.text import humanised, python_doc, python_string, upper
 from fieldscribe.wording import label, open_text
 

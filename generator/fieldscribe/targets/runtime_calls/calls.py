@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from fieldscribe.conditions import absent
 from fieldscribe.model import Command, Device, Entry, Flag, Point, SteppedCommand, Variant
+from fieldscribe.targets.runtime_calls import Call, Hex, Leaf, Name, Node, PointName, Scope, call, family_calls
 from fieldscribe.targets.runtime_calls.point_expressions import (
     addresses_of,
     allowed,
@@ -21,7 +22,6 @@ from fieldscribe.targets.runtime_calls.point_expressions import (
     step_of,
     tests_of,
 )
-from fieldscribe.targets.runtime_calls.scope import Call, Hex, Leaf, Name, Node, PointName, Scope, call, family_calls
 from fieldscribe.wording import codes_text, condition_text, overflow_texts, range_text, write_texts
 
 _WITH_RANGE = ("scaled", "float", "integer")

@@ -7,7 +7,7 @@ from fieldscribe.conditions import Condition
 from fieldscribe.lowered import Operand
 from fieldscribe.model import Bound, Command, Linear, Point, ScaleCase, Special, Step, Text, Word
 from fieldscribe.model.device import WHOLE_WORD
-from fieldscribe.targets.runtime_calls.scope import Call, Hex, Name, Node, PointName, Scope, call
+from fieldscribe.targets.runtime_calls import Call, Hex, Name, Node, PointName, Scope, call
 
 _PLACES = {"coil": "coil", "discrete": "discrete", "holding": "holding", "input": "input_register"}
 _DATES = {"date": "DateParts", "time": "TimeParts", "date and time": "DateTimeParts"}

@@ -9,7 +9,7 @@ from fieldscribe.code_view import DeviceCache
 from fieldscribe.model import Device
 from fieldscribe.resources import Render, runtime_files
 from fieldscribe.targets.identifiers import Names, Owner, head_lines
-from fieldscribe.targets.runtime_calls.scope import shared_identifiers
+from fieldscribe.targets.runtime_calls import shared_identifiers
 from fieldscribe.targets.typescript.syntax import Identifiers, attribute, code_attribute, option, word_attribute
 from fieldscribe.text import js_comment, line
 from fieldscribe.wording import open_texts

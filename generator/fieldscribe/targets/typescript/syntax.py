@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from fieldscribe.families import family
 from fieldscribe.model import Device, Flag, Special
-from fieldscribe.targets.runtime_calls.scope import (
+from fieldscribe.targets.runtime_calls import (
     Call,
     ClassNames,
     Hex,

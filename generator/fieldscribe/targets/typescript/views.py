@@ -10,6 +10,7 @@ from typing import NamedTuple
 from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.model import Device, Entry, Flag, Point
 from fieldscribe.targets.placeholders import TextTemplates
+from fieldscribe.targets.runtime_calls import Call, Hex, Name, Node, Scope, call, family_calls
 from fieldscribe.targets.runtime_calls.calls import (
     call_of,
     class_facts,
@@ -25,7 +26,6 @@ from fieldscribe.targets.runtime_calls.calls import (
     sentence,
     texts_of,
 )
-from fieldscribe.targets.runtime_calls.scope import Call, Hex, Name, Node, Scope, call, family_calls
 from fieldscribe.targets.typescript.syntax import (
     Identifiers,
     Layout,

@@ -5,8 +5,8 @@ And what generated Python and TypeScript import for it.
 
 from fieldscribe.families.can import identifier_bits
 from fieldscribe.model import Device, Field, Message, Role
-from fieldscribe.targets.python.device import RUNTIME, Line, PythonFamily
-from fieldscribe.targets.runtime_calls.scope import FamilyCalls, Hex, Node, Scope, call, telegrams
+from fieldscribe.targets.python.syntax import RUNTIME, Line, PythonFamily
+from fieldscribe.targets.runtime_calls import FamilyCalls, Hex, Node, Scope, call, telegrams
 from fieldscribe.targets.typescript.syntax import TypeScriptFamily
 
 

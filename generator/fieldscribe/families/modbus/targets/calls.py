@@ -7,8 +7,8 @@ from collections.abc import Mapping
 
 from fieldscribe.families.modbus import BROADCAST, FRAMINGS, SPACES, profile_of
 from fieldscribe.model import Base, Block, Device
-from fieldscribe.targets.python.device import RUNTIME, Line, PythonFamily
-from fieldscribe.targets.runtime_calls.scope import FamilyCalls, Hex, Node, Scope, call
+from fieldscribe.targets.python.syntax import RUNTIME, Line, PythonFamily
+from fieldscribe.targets.runtime_calls import FamilyCalls, Hex, Node, Scope, call
 from fieldscribe.targets.typescript.syntax import TypeScriptFamily
 
 

@@ -5,8 +5,8 @@ And what generated Python and TypeScript import for it.
 
 from fieldscribe.families.uss import of_bus
 from fieldscribe.model import Device, Point
-from fieldscribe.targets.python.device import RUNTIME, Line, PythonFamily
-from fieldscribe.targets.runtime_calls.scope import FamilyCalls, Node, Scope, call, telegrams, usual_maker
+from fieldscribe.targets.python.syntax import RUNTIME, Line, PythonFamily
+from fieldscribe.targets.runtime_calls import FamilyCalls, Node, Scope, call, telegrams, usual_maker
 from fieldscribe.targets.typescript.syntax import TypeScriptFamily
 
 _STORED = {"ReadWrite": "Stored", "WriteOnly": "StoredWriteOnly"}
