@@ -652,7 +652,7 @@ export declare const motorPolesSet2: ReadWrite<MotorPoles | UnknownNumber, { nam
 export declare const stabilizationConstant: ReadWrite<number>;
 /** Stabilization constant set 2: 0..255. `enter.send()` keeps it. */
 export declare const stabilizationConstantSet2: ReadWrite<number>;
-/** Enter. */
+/** Enter. The memory is rated for 100000 of them. */
 export declare const enter: DeviceCommand;
 
 /** All points by their names here. */

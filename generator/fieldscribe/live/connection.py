@@ -27,8 +27,7 @@ from fieldscribe.live.lines import LineAddress, OpenLine, families_of, require_l
 from fieldscribe.live.readings import GOOD, Choice, Reader
 from fieldscribe.model import Device, Entry, Point
 from fieldscribe.targets.python.syntax import Identifiers, attribute, in_python, parameter, scope_of, word_attribute
-from fieldscribe.targets.python.views import reader
-from fieldscribe.targets.runtime_calls import Call, Hex, Name, Node, PointName, Scope
+from fieldscribe.targets.runtime_calls import Call, Hex, Name, Node, PointName, Scope, reader
 from fieldscribe.targets.runtime_calls.calls import (
     attribute_of,
     call_of,

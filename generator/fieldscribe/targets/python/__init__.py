@@ -78,7 +78,7 @@ def outputs(device: Device, render: Render, *, tests: bool = True) -> Iterable[t
     names = Identifiers(device)
     lines = head_lines(device, "python", comment, "To regenerate")
     head = {"head": lines, "product": python_doc(f"{device.vendor} {device.model}")}
-    enums = enums_context(device, names, render)
+    enums = enums_context(names, render)
     folder = f"python/{names.package}"
     facts = {
         "uses": uses(device, names.device_class, ""),

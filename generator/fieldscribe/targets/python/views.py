@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from fieldscribe.arithmetic.words import mask_of
-from fieldscribe.model import Command, Device, Entry, Flag, Point, SteppedCommand, Variant
+from fieldscribe.model import Command, Device, Entry, Point, SteppedCommand, Variant
 from fieldscribe.resources import Render
 from fieldscribe.targets.placeholders import TextTemplates
 from fieldscribe.targets.python.syntax import (
@@ -32,11 +32,12 @@ from fieldscribe.targets.python.syntax import (
     word_attribute,
     wrapped,
 )
-from fieldscribe.targets.runtime_calls import Call, Hex, Name, Node, Scope, call
+from fieldscribe.targets.runtime_calls import Call, Hex, Name, Node, Scope, call, reader
 from fieldscribe.targets.runtime_calls.calls import (
     attribute_of,
     call_of,
     class_facts,
+    command_text,
     commands_of,
     end_texts,
     entry_text,
@@ -54,7 +55,7 @@ from fieldscribe.targets.runtime_calls.calls import (
     variants_call,
 )
 from fieldscribe.targets.runtime_calls.point_expressions import NUMBERED, addresses_of
-from fieldscribe.text import humanised, python_doc, python_string, upper
+from fieldscribe.text import python_doc, python_string, upper
 from fieldscribe.wording import label, open_text
 
 _WORD_DOC = ("", "Members are bits as they are on the wire; the names in small letters say what is true.")
@@ -87,79 +88,51 @@ class EnumClass(NamedTuple):
     composed: str = ""
 
 
-def enums_context(device: Device, names: Identifiers, render: Render) -> dict[str, object]:
-    """Return the context of the enums module: enums in the order of the device, then words of flags by their points."""
-    classes = _Classes(names, render)
-    for enum in device.enums:
-        classes.add_enum(names.enum_class(enum.name), humanised(enum.name), enum.entries)
-    for point in device.points:
-        if names.word_class(point):
-            classes.add_word(point)
-    if names.old_classes:
-        classes.used.add("renamed_classes")
-    typing = ["TYPE_CHECKING"] * bool(names.old_classes) + ["Self"] * classes.composes
+def enums_context(names: Identifiers, render: Render) -> dict[str, object]:
+    """Return the context of the enums module."""
+    texts, used, composes = list[str](), {"renamed_classes"} if names.old_classes else set[str](), False
+    for numbers in names.in_order():
+        if isinstance(numbers, Point):
+            view = _word(numbers, names)
+            used |= {"Word", *("Flag" if flag.width == 1 else "Field" for flag in numbers.flags)}
+            composes |= numbers.writable
+        else:
+            view = _enum(*numbers)
+            used.add("NamedNumber")
+        texts.append(render("python/enum.py.j2", {"class": view}))
+    typing = ["TYPE_CHECKING"] * bool(names.old_classes) + ["Self"] * composes
     return {
-        "classes": classes.texts,
+        "classes": texts,
         "old_classes": names.old_classes,
-        "runtime": sorted(classes.used),
-        "has_words": "Word" in classes.used,
+        "runtime": sorted(used),
+        "has_words": "Word" in used,
         "typing": ", ".join(typing),
     }
 
 
-class _Classes:
-    """Builds the texts of classes. `used` are names of the runtime."""
-
-    def __init__(self, names: Identifiers, render: Render) -> None:
-        self.texts: list[str] = []
-        self.used: set[str] = set()
-        self._added: set[str] = set()
-        self.composes = False
-        self._names, self._render = names, render
-
-    def add_enum(self, name: str, title: str, entries: tuple[Entry, ...]) -> None:
-        """Add the class of named numbers."""
-        self._added.add(name)
-        self.used.add("NamedNumber")
-        self._add(_enum(name, _sentence(title), entries))
-
-    def add_word(self, point: Point) -> None:
-        """Add the class of a word of flags, after those of the numbers of its flags."""
-        classes = tuple([self._names.field_class(point, flag.name) or "" for flag in point.flags])
-        for flag, named in zip(point.flags, classes, strict=True):
-            if named and named not in self._added:
-                title = humanised(flag.enum) if flag.enum else flag.title["en"]
-                self.add_enum(named, title, flag.values)
-            self.used.add("Flag" if flag.width == 1 else "Field")
-        self.used.add("Word")
-        self.composes |= point.writable
-        self._add(_word(self._names.word_class(point), _sentence(point.title["en"]), point, classes))
-
-    def _add(self, view: EnumClass) -> None:
-        self.texts.append(self._render("python/enum.py.j2", {"class": view}))
-
-
-def _enum(name: str, sentence: str, entries: tuple[Entry, ...]) -> EnumClass:
+def _enum(name: str, title: str, entries: tuple[Entry, ...]) -> EnumClass:
     members = tuple((upper(entry.name), str(entry.raw), python_doc(entry_text(entry))) for entry in entries)
-    return EnumClass(name, f"class {name}(NamedNumber):", docstring((sentence,)), members)
+    return EnumClass(name, f"class {name}(NamedNumber):", docstring((_sentence(title),)), members)
 
 
-def _word(name: str, sentence: str, point: Point, classes: tuple[str, ...]) -> EnumClass:
+def _word(point: Point, names: Identifiers) -> EnumClass:
+    name, classes = names.word_class(point), [names.field_class(point, flag.name) for flag in point.flags]
     bits = tuple(
         (upper(flag.name), f"0x{mask_of(flag.width, flag.low):04X}", python_doc(flag_text(flag)))
         for flag in point.flags
     )
     readers = tuple(
-        laid_out(reader(flag, named), 4, f"{word_attribute(flag.name)} = ")
-        for flag, named in zip(point.flags, classes, strict=True)
+        laid_out(reader(flag, numbers), 4, f"{word_attribute(flag.name)} = ")
+        for flag, numbers in zip(point.flags, classes, strict=True)
     )
     composer = _composer(point, classes) if point.writable else ()
     # the readers are in a base class, because type checkers take an enum's own attributes for members
     bases = call(f"class {name}", Name(f"_{name}Flags"), Name("enum.IntFlag"), boundary=Name("enum.KEEP"))
-    return EnumClass(name, f"{laid_out(bases, 0)}:", docstring((sentence, *_WORD_DOC)), bits, readers, *composer)
+    text = docstring((_sentence(point.title["en"]), *_WORD_DOC))
+    return EnumClass(name, f"{laid_out(bases, 0)}:", text, bits, readers, *composer)
 
 
-def _composer(point: Point, classes: tuple[str, ...]) -> tuple[tuple[str, ...], str]:
+def _composer(point: Point, classes: Sequence[str | None]) -> tuple[tuple[str, ...], str]:
     """Return parameters and result; flags whose bits are constant have no parameter."""
     mask, bits = (point.fixed.mask, point.fixed.bits) if point.fixed else (0, 0)
     parameters, parts = [], list[Node]()
@@ -173,13 +146,6 @@ def _composer(point: Point, classes: tuple[str, ...]) -> tuple[tuple[str, ...], 
     if bits:
         parts.append(Hex(bits))
     return tuple(parameters), laid_out(call("return cls", call("cls._joined", *parts)), 8)
-
-
-def reader(flag: Flag, named: str) -> Node:
-    """Return the reader of a flag of the word; `named` is the class of its numbers."""
-    if flag.width == 1:
-        return call("Flag", flag.low) if flag.active else call("Flag", flag.low, active=0)
-    return call("Field", flag.low, flag.width, *([Name(named)] if named else ()))
 
 
 def _sentence(text: str) -> str:
@@ -247,14 +213,7 @@ def _open_points(device: Device) -> Iterable[str]:
 
 
 def _command(command: Command | SteppedCommand, made: Call, scope: Scope) -> AttributeView:
-    return attribute_view(scope.commands[command.name], made, docstring((_command_doc(command),)))
-
-
-def _command_doc(command: Command | SteppedCommand) -> str:
-    text = command.title["en"].rstrip(".") + "."
-    if isinstance(command, Command) and command.wears:
-        text += f" The memory is rated for {command.wears} of them."
-    return python_doc(text)
+    return attribute_view(scope.commands[command.name], made, docstring((python_doc(command_text(command)),)))
 
 
 class AttributeView(NamedTuple):

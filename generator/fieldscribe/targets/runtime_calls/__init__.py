@@ -12,9 +12,9 @@ from typing import Any, NamedTuple, Self
 
 from fieldscribe.families import family
 from fieldscribe.lowered import Lowered, lower
-from fieldscribe.model import Device, Flag, Point, Telegram
+from fieldscribe.model import Device, Entry, Flag, Point, Telegram
 from fieldscribe.targets.identifiers import Names, Owner
-from fieldscribe.text import pascal, upper
+from fieldscribe.text import humanised, pascal, upper
 
 
 class Name(str):
@@ -65,6 +65,13 @@ def call(name: str, /, *positional: Node, **keywords: Node) -> Call:
     return Call(name, positional, keywords)
 
 
+def reader(flag: Flag, numbers: str | None) -> Call:
+    """Return the reader of a flag in its word; `numbers` is the class of its numbers, if they have names."""
+    if flag.width == 1:
+        return call("Flag", flag.low) if flag.active else call("Flag", flag.low, active=0)
+    return call("Field", flag.low, flag.width, *([Name(numbers)] if numbers else ()))
+
+
 _MAKERS = {"r": "ReadOnly", "w": "WriteOnly", "rw": "ReadWrite"}
 
 
@@ -73,11 +80,19 @@ def usual_maker(point: Point) -> str:
     return _MAKERS["".join(letter for letter in "rw" if letter in point.access)]
 
 
+class NamedNumbers(NamedTuple):
+    """Numbers with names: their class, its title, and the numbers."""
+
+    name: str
+    title: str
+    entries: tuple[Entry, ...]
+
+
 class ClassNames:
     """The final names of classes, for each enum and each word of flags; `taken` are names of other things."""
 
     def __init__(self, device: Device, taken: Iterable[str]) -> None:
-        self._taken = set(taken)
+        self._device, self._taken = device, set(taken)
         self._enums = {enum.name: self._class(pascal(enum.name), "Enum") for enum in device.enums}
         self._shared = dict(self._enums)
         self._words: dict[str, str] = {}
@@ -111,6 +126,20 @@ class ClassNames:
     def classes(self) -> set[str]:
         """All classes that name numbers."""
         return {*self._enums.values(), *self._words.values(), *self._fields.values()}
+
+    def in_order(self) -> Iterator[NamedNumbers | Point]:
+        """Yield the named numbers of enums, then points with a word of flags, each after the numbers of its flags."""
+        for enum in self._device.enums:
+            yield NamedNumbers(self._enums[enum.name], humanised(enum.name), enum.entries)
+        known = set(self._enums.values())
+        for point in (point for point in self._device.points if self.word_class(point)):
+            for flag in point.flags:
+                name = self.field_class(point, flag.name)
+                if name is not None and name not in known:
+                    known.add(name)
+                    title = humanised(flag.enum) if flag.enum else flag.title["en"]
+                    yield NamedNumbers(name, title, flag.values)
+            yield point
 
     def _name_flags(self, point: Point) -> None:
         name = self._class(pascal(point.item), "Flags")

@@ -241,6 +241,13 @@ def sentence(text: str) -> str:
     return text if text.endswith(".") else f"{text}."
 
 
+def command_text(command: Command | SteppedCommand) -> str:
+    """Return sentences about a command."""
+    text = sentence(command.title["en"])
+    wears = command.wears if isinstance(command, Command) else None
+    return f"{text} The memory is rated for {wears} of them." if wears else text
+
+
 def entry_text(entry: Entry) -> str:
     """Return a sentence about a named number; empty if its name says it all."""
     if entry.quantity:

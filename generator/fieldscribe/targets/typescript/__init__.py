@@ -65,7 +65,7 @@ def _views(device: Device) -> Views:
         "product": js_comment(f"{device.vendor} {device.model}"),
     }
     device_view = {**device_context(device, names), "doubts": open_texts(device.doubts, js_comment)}
-    views = {"enums": enums_context(device, names), "points": points_context(device, names), "index": device_view}
+    views = {"enums": enums_context(names), "points": points_context(device, names), "index": device_view}
     return {name: {**head, "view": view} for name, view in views.items()}
 
 

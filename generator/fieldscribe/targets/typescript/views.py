@@ -10,10 +10,11 @@ from typing import NamedTuple
 from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.model import Device, Entry, Flag, Point
 from fieldscribe.targets.placeholders import TextTemplates
-from fieldscribe.targets.runtime_calls import Call, Hex, Name, Node, Scope, call, family_calls
+from fieldscribe.targets.runtime_calls import Call, Hex, Name, Node, Scope, call, family_calls, reader
 from fieldscribe.targets.runtime_calls.calls import (
     call_of,
     class_facts,
+    command_text,
     commands_of,
     end_texts,
     entry_text,
@@ -38,7 +39,7 @@ from fieldscribe.targets.typescript.syntax import (
     scope_of,
     word_attribute,
 )
-from fieldscribe.text import camel, humanised, js_comment, js_string, upper
+from fieldscribe.text import camel, js_comment, js_string, upper
 from fieldscribe.wording import open_text
 
 TYPE_NAMES = ("ReadOnly", "ReadWrite", "Stored", "StoredWriteOnly", "WriteOnly")
@@ -169,7 +170,7 @@ class Points:
         for command, made in commands_of(self.scope):
             name = self.scope.commands[command.name]
             text = f"export const {name} = {lazily(self.layout.laid_out(made, 0))}"
-            doc = doc_lines(js_comment(command.title["en"].rstrip(".") + "."))
+            doc = doc_lines(js_comment(command_text(command)))
             yield f"{text};\n", Declared(name, doc, _command_type(made))
 
     def _errata(self, point: Point) -> str:
@@ -294,25 +295,16 @@ class WordOfFlags(NamedTuple):
     is_written: bool
 
 
-def enums_context(device: Device, names: Identifiers) -> dict[str, object]:
-    """Return the context of the module: numbers in the order of the device, then words of flags by their points."""
-    numbers = [_named(names.enum_class(enum.name), humanised(enum.name), enum.entries) for enum in device.enums]
-    layout, words, known = Layout({}, camel), list[WordOfFlags](), {each.name for each in numbers}
-    for point in device.points:
-        if names.word_class(point):
-            for flag, name in _fields(point, names):
-                if name not in known:
-                    known.add(name)
-                    title = humanised(flag.enum) if flag.enum else flag.title["en"]
-                    numbers.append(_named(name, title, flag.values))
-            words.append(_word(point, names, layout))
+def enums_context(names: Identifiers) -> dict[str, object]:
+    """Return the context of the module: numbers with names, and words of flags."""
+    layout = Layout({"Flag": "bitFlag", "Field": "bitField"}, camel)
+    numbers, words = list[Numbers](), list[WordOfFlags]()
+    for each in names.in_order():
+        if isinstance(each, Point):
+            words.append(_word(each, names, layout))
+        else:
+            numbers.append(_named(*each))
     return {"numbers": numbers, "words": words, "old_names": sorted(names.old_classes.items())}
-
-
-def _fields(point: Point, names: Identifiers) -> Iterator[tuple[Flag, str]]:
-    for flag in point.flags:
-        if name := names.field_class(point, flag.name):
-            yield flag, name
 
 
 def _named(name: str, title: str, entries: tuple[Entry, ...]) -> Numbers:
@@ -322,8 +314,8 @@ def _named(name: str, title: str, entries: tuple[Entry, ...]) -> Numbers:
 
 def _word(point: Point, names: Identifiers, layout: Layout) -> WordOfFlags:
     mask, bits = (point.fixed.mask, point.fixed.bits) if point.fixed else (0, 0)
-    classes = {flag.name: name for flag, name in _fields(point, names)}
-    readers: dict[str, Node] = {word_attribute(flag): _reader(flag, classes.get(flag.name, "")) for flag in point.flags}
+    classes = {flag.name: names.field_class(point, flag.name) for flag in point.flags}
+    readers: dict[str, Node] = {word_attribute(flag): reader(flag, classes[flag.name]) for flag in point.flags}
     facts: dict[str, Node] = {"constant": Hex(bits)} if bits else {}
     free = {flag.name for flag in point.flags if mask_of(flag.width, flag.low) & ~mask}
     closed = tuple(word_attribute(flag) for flag in point.flags if flag.name not in free)
@@ -331,23 +323,17 @@ def _word(point: Point, names: Identifiers, layout: Layout) -> WordOfFlags:
     name = names.word_class(point)
     made = call("wordOf", name, readers, *([facts] if facts else []))
     flags = tuple(
-        (word_attribute(flag), _type(flag, classes), js_comment(flag_text(flag)), flag.name in free)
+        (word_attribute(flag), _type(flag, classes[flag.name]), js_comment(flag_text(flag)), flag.name in free)
         for flag in point.flags
     )
     text = f"export const {name} = {lazily(layout.laid_out(made, 0))};"
     return WordOfFlags(name, _sentence(point.title["en"]), text, flags, point.writable and not is_big(point))
 
 
-def _reader(flag: Flag, named: str) -> Call:
-    if flag.width == 1:
-        return call("bitFlag", flag.low) if flag.active else call("bitFlag", flag.low, active=0)
-    return call("bitField", flag.low, flag.width, *([Name(named)] if named else ()))
-
-
-def _type(flag: Flag, classes: dict[str, str]) -> str:
+def _type(flag: Flag, numbers: str | None) -> str:
     if flag.width == 1:
         return "boolean"
-    return f"{classes[flag.name]} | UnknownNumber" if flag.name in classes else "number"
+    return f"{numbers} | UnknownNumber" if numbers else "number"
 
 
 def _sentence(text: str) -> tuple[str, ...]:
