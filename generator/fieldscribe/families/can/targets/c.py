@@ -1,7 +1,7 @@
 """The view of the CAN header: messages, cyclic telegrams, and the frames of each point."""
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from typing import Any
 
 from fieldscribe.families.can import identifier_bits, of_bus, signals
 from fieldscribe.families.can.frames import carriers, frame_count, request_and_answer
@@ -14,67 +14,8 @@ from fieldscribe.targets.c.views import PointView
 from fieldscribe.targets.identifiers import Named, Owner
 from fieldscribe.text import c_comment, upper
 
-
-@dataclass(frozen=True, slots=True)
-class MessageView:
-    """The layout of a message; `roles` are kinds and numbers."""
-
-    name: str
-    array: str
-    comment: str
-    id: str
-    adds_unit: str
-    roles: tuple[tuple[str, str], ...]
-
-
-@dataclass(frozen=True, slots=True)
-class TelegramView:
-    """A telegram that frames of a message carry."""
-
-    name: str
-    constant: str
-    words_name: str
-    slots_name: str
-    slots: int
-    message: str
-    per_frame: int
-    values: StructView
-
-
-@dataclass(frozen=True, slots=True)
-class SignalsView:
-    """A message of signals: rows of its table, and the choices that select some of them, by the name of their array.
-
-    `always` are the first words of those parts that every frame has.
-    """
-
-    name: str
-    comment: str
-    constant: str
-    array: str
-    words_name: str
-    every_name: str
-    every: int | None
-    words: int
-    id: str
-    adds_unit: str
-    length: int
-    rows: list[tuple[int, int, str, int, str]]
-    choices: list[tuple[str, list[tuple[int, int, str]]]]
-    reads: bool
-    always: set[str]
-    values: StructView
-
-
-@dataclass(frozen=True, slots=True)
-class GroupView:
-    """The addresses to read for a group, each word once."""
-
-    title: str
-    array: str
-    count_name: str
-    count: str
-    rows: list[tuple[str, str]]
+_View = dict[str, Any]
+"""What the template gets of a message, a telegram or a group."""
 
 
 def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope) -> frames.FramesHeader:
@@ -126,41 +67,44 @@ def _sections(
     }
 
 
-def _identifiers(
-    device: Device, telegrams: list[TelegramView], groups: list[GroupView], scope: HeaderScope
-) -> Iterator[Named]:
+def _identifiers(device: Device, telegrams: list[_View], groups: list[_View], scope: HeaderScope) -> Iterator[Named]:
     """Yield the identifiers of the header that only this family has, with their owners."""
     fixed = (f"{scope.prefix}_can_profile", f"{scope.prefix}_can_dialogue", f"{scope.upper}_CAN_BITRATE")
     yield Owner("target", "what the header of frames needs"), fixed
     for message in (message for message in device.messages if message.roles):
         yield Owner("message", message.name), (_array(message, scope),)
     for telegram in telegrams:
-        names = *telegram.values.names, f"{telegram.values.struct}_take"
-        yield Owner("telegram", telegram.name), (telegram.constant, telegram.slots_name, *names)
+        values = telegram["numbers"]
+        names = telegram["constant"], telegram["slots_name"], *values.names, f"{values.struct}_take"
+        yield Owner("telegram", telegram["name"]), names
     for group in groups:
-        yield Owner("group", group.title), (group.array, group.count_name)
+        yield Owner("group", group["title"]), (group["array"], group["count_name"])
 
 
 def _array(message: Message | None, scope: HeaderScope) -> str:
     return "" if message is None else f"{scope.prefix}_message_{message.name}"
 
 
-def _message(message: Message, scope: HeaderScope) -> MessageView:
-    roles = [(f"FIELDSCRIBE_CAN_{upper(role.kind)}", _role_number(role)) for role in message.roles]
-    comment, number = c_comment(message.title["en"]), hexadecimal(message.identifier, 3)
-    adds_unit = "true" if message.adds_unit else "false"
-    return MessageView(message.name, _array(message, scope), comment, number, adds_unit, tuple(roles))
+def _message(message: Message, scope: HeaderScope) -> _View:
+    """Return the layout of a message; `roles` are kinds and numbers."""
+    return {
+        "name": message.name,
+        "array": _array(message, scope),
+        "comment": c_comment(message.title["en"]),
+        "id": hexadecimal(message.identifier, 3),
+        "adds_unit": "true" if message.adds_unit else "false",
+        "roles": [(f"FIELDSCRIBE_CAN_{upper(role.kind)}", _role_number(role)) for role in message.roles],
+    }
 
 
 def _role_number(role: Role) -> str:
     return hexadecimal(role.number, 2) if role.kind in ("constant", "xor") else f"{role.number}U"
 
 
-def _telegram(telegram: Telegram, message: Message, placed: Sequence[GeneratedPoint], members: Members) -> TelegramView:
+def _telegram(telegram: Telegram, message: Message, placed: Sequence[GeneratedPoint], members: Members) -> _View:
     """Return the view of a telegram. A point whose words are in two frames is not a member of its struct."""
     scope, per_frame = members.scope, message.words
-    macro, name = f"{scope.upper}_TELEGRAM_{upper(telegram.name)}", f"{scope.prefix}_telegram_{telegram.name}"
-    array, slots = _array(message, scope), frame_count(telegram, message)
+    macro = f"{scope.upper}_TELEGRAM_{upper(telegram.name)}"
 
     def parts() -> Iterator[Part]:
         brought: dict[int, list[tuple[str, str, str]]] = {}
@@ -172,12 +116,23 @@ def _telegram(telegram: Telegram, message: Message, placed: Sequence[GeneratedPo
         for frame in sorted(brought):
             yield Part.of(f"{frame}U", brought[frame])
 
-    values = StructView(f"{scope.prefix}_{telegram.name}_values", parts)
-    return TelegramView(telegram.name, name, f"{macro}_WORDS", f"{macro}_SLOTS", slots, array, per_frame, values)
+    return {
+        "name": telegram.name,
+        "constant": f"{scope.prefix}_telegram_{telegram.name}",
+        "words_name": f"{macro}_WORDS",
+        "slots_name": f"{macro}_SLOTS",
+        "slots": frame_count(telegram, message),
+        "message": _array(message, scope),
+        "per_frame": per_frame,
+        "numbers": StructView(f"{scope.prefix}_{telegram.name}_values", parts),
+    }
 
 
-def _signals(message: Message, placed: Sequence[GeneratedPoint], members: Members) -> SignalsView:
-    """Return the view of a message of signals."""
+def _signals(message: Message, placed: Sequence[GeneratedPoint], members: Members) -> _View:
+    """Return a message of signals: rows of its table, and the choices that select some, by the name of their array.
+
+    `always` are the first words of those parts that every frame has.
+    """
     scope = members.scope
     name, macro = f"{scope.prefix}_signals_{message.name}", f"{scope.upper}_SIGNALS_{upper(message.name)}"
     choices: dict[object, tuple[str, list[tuple[int, int, str]]]] = {}
@@ -194,20 +149,19 @@ def _signals(message: Message, placed: Sequence[GeneratedPoint], members: Member
             points = [by_word[word] for word in words if word in by_word]
             yield Part.of(f"{words.start}U", (members.of(each, each.point.addresses[0]) for each in points))
 
-    values = StructView(f"{scope.prefix}_{message.name}_values", parts)
-    return SignalsView(
-        message.name,
-        c_comment(message.title["en"]),
-        name,
-        f"{name}_rows",
-        f"{macro}_WORDS",
-        f"{macro}_EVERY",
-        message.every,
-        sum(field.words for field in message.fields),
-        hexadecimal(message.identifier, 3),
-        "true" if message.adds_unit else "false",
-        message.length,
-        [
+    return {
+        "name": message.name,
+        "comment": c_comment(message.title["en"]),
+        "constant": name,
+        "array": f"{name}_rows",
+        "words_name": f"{macro}_WORDS",
+        "every_name": f"{macro}_EVERY",
+        "every": message.every,
+        "words": sum(field.words for field in message.fields),
+        "id": hexadecimal(message.identifier, 3),
+        "adds_unit": "true" if message.adds_unit else "false",
+        "length": message.length,
+        "rows": [
             (
                 field.start,
                 field.width,
@@ -217,22 +171,23 @@ def _signals(message: Message, placed: Sequence[GeneratedPoint], members: Member
             )
             for field in message.fields
         ],
-        list(choices.values()),
-        bool(mine),
-        {f"{words.start}U" for words, when in signals.parts(message) if not when},
-        values,
-    )
+        "choices": list(choices.values()),
+        "reads": bool(mine),
+        "always": {f"{words.start}U" for words, when in signals.parts(message) if not when},
+        "numbers": StructView(f"{scope.prefix}_{message.name}_values", parts),
+    }
 
 
-def _names_of(views: Iterable[SignalsView]) -> Iterator[Named]:
+def _names_of(views: Iterable[_View]) -> Iterator[Named]:
     for view in views:
-        names = [view.constant, view.array, view.words_name, *(name for name, _ in view.choices)]
-        names += [] if view.every is None else [view.every_name]
-        names += [*view.values.names, f"{view.values.struct}_take"] if view.reads else []
-        yield Owner("message", view.name), tuple(names)
+        names = [view["constant"], view["array"], view["words_name"], *(name for name, _ in view["choices"])]
+        names += [] if view["every"] is None else [view["every_name"]]
+        names += [*view["numbers"].names, f"{view['numbers'].struct}_take"] if view["reads"] else []
+        yield Owner("message", view["name"]), tuple(names)
 
 
-def _groups(device: Device, scope: HeaderScope) -> Iterator[GroupView]:
+def _groups(device: Device, scope: HeaderScope) -> Iterator[_View]:
+    """Yield the addresses to read for each group, each word once."""
     for group in device.groups:
         first_with: dict[int, str] = {}
         for point in device.points:
@@ -243,7 +198,8 @@ def _groups(device: Device, scope: HeaderScope) -> Iterator[GroupView]:
             name = f"{scope.prefix}_{group.name}_group"
             count = f"{scope.upper}_{upper(group.name)}_GROUP_COUNT"
             rows = [(hexadecimal(address), item) for address, item in first_with.items()]
-            yield GroupView(group.name, name, count, f"{len(rows)}U", rows)
+            sizes = {"count_name": count, "count": f"{len(rows)}U"}
+            yield {"title": group.name, "array": name, **sizes, "rows": rows}
 
 
 def _fits(point: Point, words: int) -> bool:

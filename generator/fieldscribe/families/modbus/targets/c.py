@@ -119,18 +119,6 @@ class BlocksView:
 
 
 @dataclass(frozen=True, slots=True)
-class BaseView:
-    """A base that follows from given numbers: its function, with their ranges, and the sum of their multiples."""
-
-    function: str
-    formula: str
-    parameters: str
-    known: str
-    start: str
-    case: str
-
-
-@dataclass(frozen=True, slots=True)
 class CommandView:
     """A command: a write of a constant, with a name."""
 
@@ -223,7 +211,8 @@ def _identify(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderSco
     return IdentifyView(device, scope, placed, read_of) if identifies(device) else None
 
 
-def _base(base: Base, device: Device, scope: HeaderScope) -> BaseView:
+def _base(base: Base, device: Device, scope: HeaderScope) -> dict[str, str]:
+    """Return a base that follows from given numbers: its function with their ranges, and the sum of their multiples."""
     given = {each.name: each for each in device.given}
     numbers = [given[name] for name, _ in base.terms]
     ends = [f"({each.name}_number >= {each.low}U)" for each in numbers if each.low]
@@ -233,14 +222,14 @@ def _base(base: Base, device: Device, scope: HeaderScope) -> BaseView:
     (_, first), *others = sorted(terms, key=lambda term: term[0] < 0)  # one of them is positive and comes first
     function = f"{scope.prefix}_{base.name}_base"
     values = ", ".join([f'fieldscribe_given(v, "{each.name}")' for each in numbers])
-    return BaseView(
-        function,
-        c_comment(base.formula),
-        ", ".join([f"uint16_t {each.name}_number" for each in numbers]) or "void",
-        " && ".join(ends),
-        "".join([first, *(f" {'-' if factor < 0 else '+'} {text}" for factor, text in others)]),
-        f'"{base.name}", {function}({values})',
-    )
+    return {
+        "function": function,
+        "formula": c_comment(base.formula),
+        "parameters": ", ".join([f"uint16_t {each.name}_number" for each in numbers]) or "void",
+        "known": " && ".join(ends),
+        "start": "".join([first, *(f" {'-' if factor < 0 else '+'} {text}" for factor, text in others)]),
+        "case": f'"{base.name}", {function}({values})',
+    }
 
 
 def _chain(found: Found) -> dict[str, str]:
