@@ -109,6 +109,7 @@ def answers(*texts: str) -> io.StringIO:
         ("monitor hitachi_l200 A020 --every -1", 2, "^$", "no number of seconds"),
         ("monitor hitachi_l200 A020 --count 0", 2, "^$", "`0` is no number of times from 1 on"),
         ("read hitachi_l200 A020 --timeout 0", 2, "^$", "`0` is no number of seconds above 0"),
+        ("read hitachi_l200 A020 --timeout 1e9", 2, "^$", "`1e9` is no number of seconds above 0, up to 100000000"),
         ("read hitachi_l200 A020 --retries -1", 2, "^$", "`-1` is no number of times from 0 on"),
         (
             "write hitachi_l200 A020=abc --yes",

@@ -66,6 +66,8 @@ def test_a_file_that_is_no_trace_is_kept(tmp_path: Path, capsys: pytest.CaptureF
         ([L200, "--unmet", "stopped"], "no write needs the condition `stopped`"),
         ([L200, "--fault", "tired"], "there is no fault `tired`"),
         ([L200, "--fault", "late soon"], "`soon` does not belong to the fault `late`"),
+        ([L200, "--fault", "late 0.5 101%"], "`101%` does not belong to the fault `late`"),
+        ([L200, "--fault", "silent x0"], "`x0` does not belong to the fault `silent`"),
         ([L200, "--time-scale", "-1"], "a time scale is a number from 0"),
         ([], "there is nothing to simulate"),
         ([L200, "--tcp", "0", "--speed", "300"], "a TCP line has no speed"),
@@ -94,6 +96,7 @@ def test_nobody_beyond_this_machine_is_served_unless_it_is_wanted(capsys: pytest
     [
         ("lines: 3\n", ":1:8: `lines` is a list"),
         ("line: []\n", ":1:7: there is no key `line` here"),
+        ("lines: []\n", ":1:8: there is no line\n  hint: write"),
         ("lines:\n- {tcp: 0, serial: x, devices: []}\n", ":2:3: a line is one of tcp, serial and can"),
         ("lines:\n- {tcp: 0, devices: []}\n", ":2:3: a line is one of tcp, serial and can, and has devices"),
         ("lines:\n- {tcp: 0, devices: [{device: nothing}]}\n", ":2:31: there is no device `nothing`"),
@@ -101,6 +104,7 @@ def test_nobody_beyond_this_machine_is_served_unless_it_is_wanted(capsys: pytest
         ("lines:\n- {tcp: 0, devices: [{device: nord_sk5xxe, behaviour: maybe}]}\n", ":2:55: `maybe` is not yes or no"),
         ("lines:\n- {tcp: 0, devices: [{device: nord_sk5xxe, unit: one}]}\n", ":2:50: `unit` is a whole number"),
         ("lines:\n- {tcp: 0, devices: [{device: nord_sk5xxe, units: 1-4}]}\n", ":2:51: `1-4` is no interval"),
+        ("lines:\n- {tcp: 0, devices: [{device: nord_sk5xxe, units: 4..1}]}\n", ":2:51: `4..1` is no interval"),
         ("lines:\n- {tcp: 0, devices: [nord_sk5xxe]}\n", ":2:22: this is no mapping"),
         ("lines: [\n", ":2:1: this is not YAML"),
         ("lines:\n- {tcp: 0, faults: [tired], devices: [{device: nord_sk5xxe}]}\n", "there is no fault `tired`"),
@@ -143,6 +147,9 @@ def test_the_console_reads_writes_and_spoils() -> None:
         "get",
         "advance",
         "advance far",
+        "advance nan",
+        "advance 1e400",
+        "advance -1",
         "met hope",
         "fault",
     ):
@@ -150,6 +157,15 @@ def test_the_console_reads_writes_and_spoils() -> None:
             carry_out(bench, wrong)
     with pytest.raises(EOFError):
         carry_out(bench, "quit")
+
+
+def test_commands_come_from_a_file_too(tmp_path: Path) -> None:
+    (tmp_path / "commands").write_text("set A020=60\nget A020\nget", "utf-8")
+    command = [sys.executable, "-m", "fieldscribe", "simulate", L200, "--tcp", "0", "--for", "0"]
+    with open(tmp_path / "commands", encoding="utf-8") as commands:
+        done = subprocess.run(command, stdin=commands, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout.splitlines()[1:]) == (0, ["1 A020 = 60", "0 requests"])
+    assert done.stderr == "fieldscribe: `get` needs more\n  hint: `help` says what\n"
 
 
 @pytest.mark.full(seconds=2)

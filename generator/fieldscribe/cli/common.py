@@ -48,12 +48,12 @@ class StopError(UnclearError):
 
 def duration(text: str) -> float:
     """Return a number of seconds above 0, for argparse."""
-    return _number(text, "seconds above 0", lambda seconds: 0 < seconds <= _LONGEST)
+    return _number(text, f"seconds above 0, up to {_LONGEST:.0f}", lambda seconds: 0 < seconds <= _LONGEST)
 
 
 def period(text: str) -> float:
     """Return a number of seconds from 0 on, for argparse."""
-    return _number(text, "seconds from 0 on", lambda seconds: 0 <= seconds <= _LONGEST)
+    return _number(text, f"seconds from 0 to {_LONGEST:.0f}", lambda seconds: 0 <= seconds <= _LONGEST)
 
 
 def times(text: str) -> int:

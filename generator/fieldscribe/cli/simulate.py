@@ -188,13 +188,16 @@ async def _serve(bench: Bench, seconds: float | None, trace: TextIO | None) -> i
 
 def _read_lines(bench: Bench, stop: asyncio.Event) -> None:
     """Carry out the lines of standard input, if this process may read it."""
-    with suppress(OSError, ValueError, AttributeError):  # a file cannot be waited for; it may be closed
+    with suppress(OSError, ValueError, AttributeError):  # it may be closed
         source = sys.stdin.fileno()
         if not os.isatty(source) or os.tcgetpgrp(source) == os.getpgrp():  # in the background it would be stopped
-            asyncio.get_running_loop().add_reader(source, _read_line, source, bench, stop)
+            try:
+                asyncio.get_running_loop().add_reader(source, _read_lines_now, source, bench, stop)
+            except PermissionError:  # a file has its lines at once, and cannot be waited for
+                _read_lines_now(source, bench, stop)
 
 
-def _read_line(source: int, bench: Bench, stop: asyncio.Event) -> None:
+def _read_lines_now(source: int, bench: Bench, stop: asyncio.Event) -> None:
     data = os.read(source, 65536)
     if not data:
         asyncio.get_running_loop().remove_reader(source)

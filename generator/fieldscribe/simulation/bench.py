@@ -4,6 +4,7 @@ A mapping from a file has the place of each key, which error messages start with
 """
 
 from collections.abc import Mapping
+from contextlib import suppress
 from decimal import Decimal
 from difflib import get_close_matches
 from functools import lru_cache
@@ -86,6 +87,7 @@ Settings = Mapping[str, Any]
 Item = TypeVar("Item")
 _Kinds = Mapping[str, tuple[tuple[type, ...], str]]
 MOST_DEVICES = 10_000
+_LONGEST = 1e8
 _BITS = 11
 """The bits of a character on a serial line, with start, parity and stop bits."""
 
@@ -119,6 +121,8 @@ class Bench:
 
     def __init__(self, settings: Settings, folder: Path = Path(), trace: Trace | None = None) -> None:
         _check(settings, _BENCH, "lines")
+        if not settings["lines"]:
+            raise _wrong(settings, "lines", "there is no line", "write `- tcp: 5020` and its `devices`")
         self.clock = Clock(float(settings.get("time_scale", 1)))
         if not 0 <= self.clock.scale <= 1e6:
             raise _wrong(settings, "time_scale", "a time scale is a number from 0 (time stops) to a million", "")
@@ -197,7 +201,7 @@ def _units(settings: Settings, usual: int) -> range:
         unit = settings.get("unit", usual)
         return range(unit, unit + 1)
     low, _, high = (part.strip() for part in settings["units"].partition(".."))
-    if not (low.isdecimal() and high.isdecimal() and int(high) - int(low) < MOST_DEVICES):
+    if not (low.isdecimal() and high.isdecimal() and 0 <= int(high) - int(low) < MOST_DEVICES):
         raise _wrong(settings, "units", f"`{settings['units'][:40]}` is no interval", "write it as 1..10")
     return range(int(low), int(high) + 1)
 
@@ -250,7 +254,7 @@ def carry_out(bench: Bench, text: str) -> str:
         raise UnclearError(f"no device has the unit `{unit[1:21]}`", "")
     try:
         if verb == "advance":
-            bench.clock.advance(max(0.0, float(rest)))
+            bench.clock.advance(_seconds(rest))
         elif verb == "fault":
             for line in bench.lines:
                 line.faults.waiting.append(Fault.of(rest))
@@ -266,6 +270,14 @@ def carry_out(bench: Bench, text: str) -> str:
     except (KeyError, ValueError) as error:
         raise UnclearError(str(error.args[0]), "") from None
     return ""
+
+
+def _seconds(text: str) -> float:
+    """Return a number of seconds of up to three years. Raises UnclearError."""
+    with suppress(ValueError):
+        if 0 <= (seconds := float(text)) <= _LONGEST:
+            return seconds
+    raise UnclearError(f"`{text[:40]}` is no number of seconds", f"it is at most {_LONGEST:.0f}, as in `advance 60`")
 
 
 def _one(device: SimulatedDevice, verb: str, rest: str) -> str:

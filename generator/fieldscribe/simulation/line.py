@@ -87,9 +87,9 @@ class Fault:
         for word in words:
             if _NUMBER.fullmatch(word):
                 fault.number = float(word)
-            elif match := _TIMES.fullmatch(word):
+            elif (match := _TIMES.fullmatch(word)) and int(match[1]) > 0:
                 fault.times = int(match[1])
-            elif match := _SHARE.fullmatch(word):
+            elif (match := _SHARE.fullmatch(word)) and float(match[1]) <= 100:
                 fault.share = float(match[1]) / 100
             else:
                 hint = f"write it as `{kind} 2 x3 50%`: with the number 2, for 3 answers, for every second one"
