@@ -12,6 +12,7 @@ from fieldscribe.diagnostics import Report, Span
 from fieldscribe.grouping import grouped
 from fieldscribe.language.formula import conditions
 from fieldscribe.language.formula.conditions import Move, parse_move
+from fieldscribe.language.formula.normal import evaluate
 from fieldscribe.language.formula.syntax import (
     Binary,
     Expression,
@@ -284,7 +285,7 @@ class _Reader:
     def _unknown(self, what: str, word: str, span: Span, known: Iterable[str], hint: str | None = None) -> None:
         near = nearest(word, tuple(known))
         hint = hint or (
-            f"did you mean `{near}`?" if near else f"known: {', '.join([*known][:12])}" if known else _NO_NUMBER
+            f"did you mean `{near}`?" if near else f"known: {', '.join([*known][:12])}" if known else "write a number"
         )
         self.report.error(f"unknown-{what}", f"there is no {what} {quoted(word)}", span.moved(0, len(word)), hint)
 
@@ -308,16 +309,24 @@ def _units_of(text: str) -> Dimension:
 
 
 def _zero_divisor(expression: Expression) -> int | None:
-    """Return the column of a constant 0 by which an expression divides; None if there is none."""
+    """Return the column of a division by 0 in an expression; None if there is none."""
     match expression:
-        case Binary("/", _, Number(value, column)) if value == 0:
-            return column
-        case Binary(_, left, right):
-            column_left = _zero_divisor(left)
-            return _zero_divisor(right) if column_left is None else column_left
+        case Binary(op, left, right, column):
+            inner = next((at for at in map(_zero_divisor, (left, right)) if at is not None), None)
+            return column if inner is None and op == "/" and _is_zero(right) else inner
         case Negate(operand):
             return _zero_divisor(operand)
     return None
+
+
+def _is_zero(expression: Expression) -> bool:
+    """Return True if an expression without a zero divisor is 0, whatever its names are."""
+    match expression:
+        case Binary("*", left, right):
+            return _is_zero(left) or _is_zero(right)
+        case Binary("/", operand) | Negate(operand):
+            return _is_zero(operand)
+    return not names(expression) and evaluate(expression, {}) == 0
 
 
 def _dimension(expression: Expression, refs: Mapping[Name, Ref]) -> Dimension:
