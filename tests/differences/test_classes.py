@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -16,7 +17,7 @@ from fieldscribe.differences.described import Described
 from fieldscribe.differences.sides import Side
 from fieldscribe.export import export_model
 from fieldscribe.pipeline import load_analysis
-from support.described import group, head, together, write
+from support.described import DEVICES, group, head, together, write
 
 BASE = together(
     head(
@@ -26,11 +27,15 @@ BASE = together(
         "gaps: {holding: [900..999]}, exceptions: {01h: bad_function}, "
         "functions: {03h: {name: read, max: 16}, 06h: write, 10h: write_many}}",
         enums="{modes: {0: stop, 1: run}}",
-        commands="[{name: enter, function: 06h, at: 800h, value: 1}, {name: prime, arguments: {unit: 1..9}, "
+        commands="[{name: enter, function: 06h, at: 800h, value: 1, title: Enter, note: Once, "
+        "wears: 9999, busy: status}, "
+        "{name: prime, arguments: {unit: 1..9}, "
         "steps: [{at: 810h, words: [unit, 7]}, {wait: {source.raw: 1}, within: 2 s}]}]",
         frames='[{name: read_speed, framing: rtu, direction: request, bytes: "01 03 00 10 00 01 85 CF"}]',
         errata='[{id: odd, where: in the words, section: "1", printed: this at line 7, taken: that, why: so, '
         "certainty: likely}]",
+        units="{sack: {name: sack of flour, quantity: flour}}",
+        records="{event: {points: [{name: code, at: base}]}}",
     ),
     group(
         "- {code: P1, name: speed, title: {en: Speed, de: Tempo}, at: 10h, range: 0..4000, default: 500, line: 7, "
@@ -51,12 +56,40 @@ BASE = together(
         numbering="{modicon: wire + 1}",
         title="{en: Main}",
     ),
+    group(
+        "- {name: packed, at: 100h, coding: bcd, bytes: low first}\n"
+        "- {name: magnitude, at: 101h, type: s16, coding: sign and magnitude}\n"
+        "- {name: words, at: 102h, type: text, characters: 4, encoding: latin-1, padding: 00h}\n"
+        "- {name: moment, at: 104h, type: u32, notation: time since 1970-01-01}\n"
+        "- {name: clock, at: 106h, per_word: 1, parts: [hour, minute]}\n"
+        "- {name: twin, at: 108h, write_at: 109h}\n"
+        "- {name: trot, at: 10Ah, unit: sack, takes_effect: after a restart, write_with: [twin]}\n"
+        "- {name: event_1, record: event, at: 10Bh}\n"
+        "- {name: seen, at: 10Ch, certainty: hardware, until: firmware 9}\n"
+        "- {name: again, at: 10Ch, view_of: seen, changes: never}\n"
+        "- {name: paged, at: 10Dh, select: {source: 1}, changes_with: [twin]}\n"
+        "- {name: wide, at: 120h, type: u32, sets: {2: {at: 130h}}, display: {decimals: 1}, scale: value = raw / 100}\n"
+        "- {name: unread, at: 140h, access: none, untyped: in two parts}\n",
+        group="second",
+    ),
 )
 
-EDITS: list[tuple[str, str, list[list[str | None]]]] = [
-    edit for edits in json.loads(Path(__file__).with_name("edits.json").read_text("utf-8")).values() for edit in edits
+Told = list[list[str | None]]
+EDITS: list[tuple[str, str, Told, str]] = [
+    (old, new, told, places[0] if places else old)
+    for edits in json.loads(Path(__file__).with_name("edits.json").read_text("utf-8")).values()
+    for old, new, told, *places in edits
 ]
-"""What is replaced by what, and the differences: class, subject and fact, that of the edit first."""
+"""What is replaced by what, the differences (class, subject and fact, that of the edit first), and what stands in the
+line that is told, if that is not the edited one."""
+
+KITCHENS: list[tuple[str, str, list[str], Told]] = [
+    (device, file, edit, told)
+    for device, files in json.loads(Path(__file__).with_name("kitchens.json").read_text("utf-8")).items()
+    for file, edits in files.items()
+    for *edit, told in edits
+]
+"""The same for devices of other families: the device, its file, the edit, and all differences."""
 
 STEPS = {"wire": "major", "api": "major", "behaviour": "minor", "compatible": "minor", "docs": "patch"}
 
@@ -65,7 +98,13 @@ STEPS = {"wire": "major", "api": "major", "behaviour": "minor", "compatible": "m
 def side(text: str) -> Side:
     """A description as one side of a comparison."""
     with TemporaryDirectory() as folder:
-        analysis = load_analysis(write(Path(folder), text), Report())
+        return side_of(write(Path(folder), text))
+
+
+@cache
+def side_of(file: Path) -> Side:
+    """A file as one side of a comparison."""
+    analysis = load_analysis(file, Report())
     assert analysis is not None
     described = Described(analysis)
     return Side(export_model(described.device), described, "device.yaml")
@@ -76,8 +115,8 @@ def exported(text: str) -> Any:
     return side(text).exported
 
 
-@pytest.mark.parametrize(("old", "new", "told"), EDITS, ids=[f"{old} to {new}"[:60] for old, new, _ in EDITS])
-def test_an_edit(old: str, new: str, told: list[list[str | None]]) -> None:
+@pytest.mark.parametrize(("old", "new", "told", "place"), EDITS, ids=[f"{old} to {new}"[:60] for old, new, *_ in EDITS])
+def test_an_edit(old: str, new: str, told: Told, place: str) -> None:
     assert old in BASE
     compared = Comparison("made_up", side(BASE), side(BASE.replace(old, new, 1)))
     found = [[each.weight, subject_of(each), fact_of(each)] for each in compared.differences]
@@ -87,9 +126,22 @@ def test_an_edit(old: str, new: str, told: list[list[str | None]]) -> None:
     assert step_for(each.weight for each in compared.differences) == (STEPS[str(told[0][0])] if told else None)
     if told:
         places = compared.places(compared.differences[found.index(told[0])])
-        edited = f":{BASE.partition(old)[0].count(chr(10)) + 1}"
+        edited = f":{BASE.partition(place)[0].count(chr(10)) + 1}"
         assert all(place is None or place.endswith(edited) for place in places.values()), (places, edited)
         assert any(places.values())
+
+
+@pytest.mark.parametrize(("device", "file", "edit", "told"), KITCHENS, ids=lambda part: str(part)[:60])
+def test_an_edit_of_a_kitchen(device: str, file: str, edit: list[str], told: Told, tmp_path: Path) -> None:
+    shutil.copytree(DEVICES / device, tmp_path / device)
+    edited = tmp_path / device / file
+    text = edited.read_text("utf-8")
+    old, new = edit
+    assert old in text
+    edited.write_text(text.replace(old, new, 1), "utf-8")
+    sides = (side_of(folder / device / "device.yaml") for folder in (DEVICES, tmp_path))
+    found = Comparison(device, *sides).differences
+    assert [[each.weight, subject_of(each), fact_of(each)] for each in found] == told
 
 
 def test_what_only_names_a_renamed_thing_is_no_difference() -> None:

@@ -138,7 +138,7 @@ class Described:
 
     def _of_device(self, fact: str) -> Span:
         scope, keys = self.analysis.scope, _yaml_keys(fact)
-        for holder in (scope.header, *([scope.bus] if scope.bus is not None else [])):
+        for holder in (scope.header,) if scope.bus is None or fact == "note" else (scope.bus, scope.header):
             for key in ("note",) if fact == "note of the bus" else keys:
                 if key in holder:
                     return holder.span(key)
