@@ -7,6 +7,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from errno import ENOSPC
 from pathlib import Path
 
 import pytest
@@ -152,6 +153,33 @@ def test_the_journal_of_a_killed_restore_is_right(number: int, *, after: bool, d
     assert f"perhaps written: {FIRST[number]}\n" in again.err
     assert (again.code, interrupted(Path("a.json.journal"))) == (0, None)
     assert all(drive.values[name] == BEFORE[name] for name in names)
+
+
+@pytest.mark.parametrize(
+    ("notes", "state"),
+    [
+        (0, f"not written: {', '.join(FIRST)}"),
+        (1, f"not written: {', '.join(FIRST)}"),
+        (2, f"written: {FIRST[0]}; not written: {', '.join(FIRST[1:])}"),
+        (4, f"written: {', '.join(FIRST[:2])}; not written: {FIRST[2]}"),
+        (7, f"written: {', '.join(FIRST)}"),
+    ],
+)
+def test_a_full_disk_ends_a_restore_with_what_was_written(
+    notes: int, state: str, drive: Simulated, on_line: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The journal has room for so many notes."""
+    room = iter(range(notes))
+
+    def synchronised(_stream: int) -> None:
+        if next(room, None) is None:
+            raise OSError(ENOSPC, "No space left on device")
+
+    monkeypatch.setattr("os.fsync", synchronised)
+    done = on_line("restore", "a.json", "--yes")
+    assert (done.code, done.out) == (2, "")
+    assert done.err.splitlines()[-1] == f"fieldscribe: a.json.journal: No space left on device; {state}"
+    assert [drive.values[label.split()[1]] == BEFORE[label.split()[1]] for label in FIRST].count(True) == notes // 2
 
 
 def test_a_journal_that_ends_anywhere_tells_of_what_is_whole(tmp_path: Path) -> None:

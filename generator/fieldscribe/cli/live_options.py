@@ -117,6 +117,11 @@ class Work:
         self.left: list[str] = []
         self.begun: list[str] = []
 
+    @property
+    def is_begun(self) -> bool:
+        """True if it is known what is to be written."""
+        return bool(self.left or self.written)
+
     @contextmanager
     def writing(self, names: list[str]) -> Iterator[None]:
         """Record what a request writes: it is `begun`, and then written unless an error comes."""
@@ -128,13 +133,9 @@ class Work:
 
     def state(self) -> str:
         """Return what was written and what was not, as text for a command that ends early."""
-        if not self.left:
-            return f"written: {', '.join(self.written)}" if self.written else "nothing was written"
-        written = f"written: {', '.join(self.written)}; " if self.written else ""
-        begun = self.begun or self.left[:1]
-        left = [name for name in self.left if name not in begun]
-        rest = f"; not written: {', '.join(left)}" if left else ""
-        return f"{written}perhaps written: {', '.join(begun)}{rest}"
+        left = [name for name in self.left if name not in self.begun]
+        states = (("written", self.written), ("perhaps written", self.begun), ("not written", left))
+        return "; ".join(f"{state}: {', '.join(names)}" for state, names in states if names) or "nothing was written"
 
 
 class Live(NamedTuple):
@@ -207,8 +208,12 @@ def connected(arguments: Namespace, line: LineAddress) -> Iterator[tuple[Connect
             yield connection, work
     except FieldscribeError as error:
         hint = advice(error)
-        message = in_words(error) + (f"; {work.state()}" if work.left else "")
+        message = in_words(error) + (f"; {work.state()}" if work.is_begun else "")
         raise StopError(message, hint, USAGE if hint else FINDINGS) from error
+    except OSError as error:  # of a file
+        if error.filename is None or not work.is_begun:
+            raise
+        raise StopError(f"{error.filename}: {error.strerror}; {work.state()}") from error
     except KeyboardInterrupt:
         print(f"\nfieldscribe: interrupted; {work.state()}", file=sys.stderr)
         raise

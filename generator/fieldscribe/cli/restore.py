@@ -69,8 +69,8 @@ def run(arguments: Namespace) -> int:
         if not arguments.dry_run:
             if writes and not arguments.yes:
                 ask(live, writes)
-            names = [write.reading.label for write in writes]
-            _write(live, writes, now, Journal(journal, names, _facts(arguments, live)))
+            live.work.left = [write.reading.label for write in writes]
+            _write(live, writes, now, Journal(journal, live.work.left, _facts(arguments, live)))
             done.left = [item for item, raw in order.writes.items() if _differs(live, item, raw)]
             done.is_written = True
             lost = sum(write.is_lost for write in writes)
@@ -150,8 +150,7 @@ def _facts(arguments: Namespace, live: Live) -> dict[str, object]:
 
 
 def _write(live: Live, writes: list[Write], now: Snapshot, journal: Journal) -> None:
-    """Write all, each with its lines in the journal. Raises FieldscribeError."""
-    live.work.left = [write.reading.label for write in writes]
+    """Write all, each with its lines in the journal. Raises FieldscribeError, OSError."""
     try:
         for request in in_requests(live.model, writes):
             numbers = [writes.index(write) for write in request]

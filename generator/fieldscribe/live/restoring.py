@@ -7,6 +7,7 @@ next one reads what was written.
 import json
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
@@ -183,7 +184,7 @@ class Journal:
 
     def __init__(self, path: Path, names: list[str], facts: dict[str, Any]) -> None:
         """Start after the earlier entries of the file. Raises OSError."""
-        self._stream = path.open("a", encoding="utf-8")
+        self._path, self._stream = path, path.open("a", encoding="utf-8")
         if self._stream.tell():
             self._stream.write("\n")  # the last line of a killed restore may be incomplete
         started = datetime.now(UTC).isoformat(timespec="seconds")
@@ -207,12 +208,17 @@ class Journal:
 
     def close(self) -> None:
         """Close the file."""
-        self._stream.close()
+        with suppress(OSError):  # a note that could not be written has raised it already
+            self._stream.close()
 
     def _note(self, facts: dict[str, Any]) -> None:
-        self._stream.write(json.dumps(facts) + "\n")
-        self._stream.flush()
-        os.fsync(self._stream.fileno())
+        try:
+            self._stream.write(json.dumps(facts) + "\n")
+            self._stream.flush()
+            os.fsync(self._stream.fileno())
+        except OSError as error:
+            error.filename = str(self._path)
+            raise
 
 
 def interrupted(path: Path) -> Interrupted | None:
