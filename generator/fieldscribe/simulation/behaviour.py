@@ -152,10 +152,17 @@ class Behaviour:
         if step is not None:
             aim = self._aim(rule.ref, step, number)
         self._done.update(step for step in ready if step.once)
-        if aim != (number, self._slopes.pop(rule.ref, ZERO)):
+        if aim != (number, self._slopes.pop(rule.ref, ZERO)) or (step is not None and self._has_other_scale(rule.ref)):
             self._put(rule.ref, aim[0])
         if aim[1]:
             self._slopes[rule.ref] = aim[1]
+
+    def _has_other_scale(self, ref: Ref) -> bool:
+        """Return True if another point changed the scale, so that the raw number no longer means the number."""
+        point = self._points.get(ref.name) if ref.kind == "value" else None
+        if point is None or not point.scale_arguments:
+            return False
+        return self._encoded(ref, point, self._read(ref)[0]) != self._memory.raw(ref.name)
 
     def _aim(self, ref: Ref, step: Step, number: Fraction) -> Pair:
         """Return the number and slope that a move gives now; without a result the number stays."""
