@@ -22,7 +22,7 @@ from mutants.children import StoppedError, in_child
 from mutants.importing import compiled, use
 from mutants.judges import KILLED, LEFT_OUT, ROOT, SURVIVED, Verdict
 from mutants.noticing import TARGETS, FileOfTests, Witness, compiled_to, measured_output, measured_tests, run_tests
-from mutants.rooms import HOUSE, place_of, room_of
+from mutants.rooms import HOUSE, MODULE, place_of, room_of
 from mutants.sources import Mutant
 
 TESTED = 12.0
@@ -33,6 +33,8 @@ STARTED = 0.3
 """Seconds that a file of tests takes before its first test."""
 LIMIT = 45
 """Seconds of a processor after which a mutant is taken to hang."""
+_PROGRAM = 'if __name__ == "__main__":'
+"""What a module has that others run as a process of its own."""
 _LOADED = ("jinja2", "yaml", "hypothesis", "jsonschema")
 
 Codes = dict[str, CodeType]
@@ -52,6 +54,7 @@ class GeneratorJudge:
             importlib.import_module(name)
         self._measured, self._devices, self._tests = work / "measured", list(compiled_devices), list(tests)
         self._files: dict[Path, FileOfTests] = {}
+        self._program, self._programs = work / "program.py", dict[str, str]()
         self.codes = compiled()
         self.sound: dict[str, bool] = {}
 
@@ -78,8 +81,12 @@ class GeneratorJudge:
         except (SyntaxError, ValueError):
             return Verdict(LEFT_OUT, "it does not compile")
         place, codes = place_of(mutant), {**self.codes, str(path): code}
+        if _PROGRAM in mutant.text:
+            self._program.write_text(mutant.text, "utf-8")
+            self._programs, place = {str(path): str(self._program)}, f"{mutant.path}::{MODULE}"
         of_room = self._noticed(codes, mutant.path, place, self.files(ROOT / "tests" / mutant.kind), [])
         by = of_room or self._noticed(codes, mutant.path, place, self.files(ROOT / "tests"), self.outputs)
+        self._programs = {}
         return Verdict(LEFT_OUT, by) if by == IMPORT else Verdict(KILLED if by else SURVIVED, by)
 
     def _noticed(
@@ -99,7 +106,7 @@ class GeneratorJudge:
         """Return the name of what notices a changed file, judged in a child process."""
 
         def work(tell: Callable[[Any], None]) -> None:
-            use(codes)
+            use(codes, self._programs)
             tell(_import_fails(changed) or _output_that_differs(outputs) or _test_that_fails(tests) or NOBODY)
 
         try:
@@ -164,7 +171,7 @@ def entering(file: FileOfTests, place: str) -> Sequence[Witness]:
     """The tests of a file that enter a function; of what runs at import, those that enter anything of the module."""
     direct = [test for test in file.tests if place in test.enters]
     module, _, function = place.partition("::")
-    if function or place not in file.enters:
+    if (function and direct) or place not in file.enters:
         return direct
     using = [test for test in file.tests if any(one.startswith(f"{module}::") for one in test.enters)]
     return using or file.tests

@@ -56,8 +56,8 @@ def _stands_first(node: ast.stmt) -> bool:
 class FromMemory:
     """Finds the compiler's modules where they lie, with the given code."""
 
-    def __init__(self, codes: dict[str, CodeType]) -> None:
-        self.codes = codes
+    def __init__(self, codes: dict[str, CodeType], programs: dict[str, str]) -> None:
+        self.codes, self.programs = codes, programs
 
     def find_spec(
         self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None
@@ -67,14 +67,19 @@ class FromMemory:
             return None
         spec = PathFinder.find_spec(name, [str(HOUSE)] if path is None else path, target)
         if spec is not None and spec.origin in self.codes:
-            spec.loader = _Loader(name, spec.origin, self.codes[spec.origin])
+            spec.loader = _Loader(name, spec.origin, self.codes[spec.origin], self.programs.get(spec.origin))
         return spec
 
 
 class _Loader(SourceFileLoader):
-    def __init__(self, name: str, path: str, code: CodeType) -> None:
+    def __init__(self, name: str, path: str, code: CodeType, program: str | None) -> None:
         super().__init__(name, path)
-        self._code = code
+        self._code, self._program = code, program
+
+    def exec_module(self, module: ModuleType) -> None:
+        """Execute the code; a program is found where its changed text lies."""
+        module.__file__ = self._program or module.__file__
+        super().exec_module(module)
 
     def get_code(self, fullname: str) -> CodeType:
         """The given one."""
@@ -82,7 +87,10 @@ class _Loader(SourceFileLoader):
         return self._code
 
 
-def use(codes: dict[str, CodeType]) -> None:
-    """Import the compiler like this from now on; it must not have been imported yet."""
+def use(codes: dict[str, CodeType], programs: dict[str, str] | None = None) -> None:
+    """Import the compiler like this from now on; it must not have been imported yet.
+
+    `programs` are modules that others run as a process of its own, each with the file that has its text.
+    """
     assert PACKAGE.name not in sys.modules
-    sys.meta_path.insert(0, FromMemory(codes))
+    sys.meta_path.insert(0, FromMemory(codes, programs or {}))
