@@ -118,6 +118,18 @@ def answers(*texts: str) -> io.StringIO:
             "base_frequency: `abc` is no number\n  hint: it takes 0..400 Hz; hexadecimal is 0xabc",
         ),
         ("write hitachi_l200 A020=50 base_frequency=60 --yes", 2, "^$", "A020 base_frequency is given twice: nothing"),
+        (
+            "read hitachi_l200 overvoltage_deceleration_level_200v --variant voltage_class=400V",
+            2,
+            "^$",
+            "has `overvoltage_deceleration_level_200v` only in another variant\n  hint: it is there with `--variant",
+        ),
+        (
+            "write hitachi_l200 overvoltage_deceleration_level_200v=390 --variant voltage_class=400V --yes",
+            2,
+            "^$",
+            "only in another variant\n  hint: it is there with `--variant voltage_class=200V`\n",
+        ),
         ("listen hitachi_l200 --for nan", 2, "^$", "`nan` is no number of seconds above 0"),
         ("listen hitachi_l200 --for -1", 2, "^$", "`-1` is no number of seconds above 0"),
         ("read hitachi_l200 A020 --with slot=3", 2, "^$", "no address .* depends on `slot=3`\n  hint: leave it out"),

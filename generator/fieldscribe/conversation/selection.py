@@ -10,7 +10,7 @@ from difflib import get_close_matches
 from fieldscribe import wording
 from fieldscribe.conditions import absent
 from fieldscribe.conversation.lookup import Match, advice, find
-from fieldscribe.diagnostics import UnclearError, did_you_mean
+from fieldscribe.diagnostics import UnclearError, did_you_mean, either
 from fieldscribe.language.numbers import NumberError, parse_integer
 from fieldscribe.model import Base, Device, Place, Point, SteppedCommand, Terms
 from fieldscribe.text import line, shortened
@@ -31,8 +31,9 @@ def choose_variants(device: Device, chosen: Iterable[str]) -> Device:
     if not wanted:
         return device
     points = tuple(point for point in device.points if _is_in(point, wanted))
+    left_out = tuple(point for point in device.points if not _is_in(point, wanted))
     left = {axis: (wanted[axis],) if axis in wanted else values for axis, values in device.variants.items()}
-    return replace(device, points=points, variants=left)
+    return replace(device, points=points, variants=left, left_out=(*device.left_out, *left_out))
 
 
 def absence(device: Device, point: Point) -> str:
@@ -68,6 +69,11 @@ def choose_point(
         )
     points = present(device, {match.point.item: match.point for match in matches}.values())
     if not points:
+        names = [(point.variant, (point.item, point.name, point.code)) for point in device.left_out]
+        others = [variant for variant, named in names if text in named]
+        if others:
+            hint = f"it is there with {either([f'--variant {variant}' for variant in others])}"
+            raise UnclearError(f"{device.id} has `{shortened(text)}` only in another variant", hint)
         what, near = "point or group" if groups else "point", get_close_matches(text, groups, 1)
         raise UnclearError(f"{device.id} has no {what} `{shortened(text)}`", did_you_mean(near) or advice(device, text))
     if len(points) == 1 or (any_variant and all(same_meaning(point, points[0]) for point in points)):

@@ -407,7 +407,8 @@ class Document:
 class Device:
     """One product with one register map. `digest` covers the facts that generated code depends on, and no others.
 
-    `command` is the command line that writes the output, if that is not `fieldscribe generate`; it is not a fact.
+    Two attributes are no facts: `command` is the command line that writes the output, if that is not `fieldscribe
+    generate`, and `left_out` are the points that only variants have that were not chosen.
     """
 
     id: str
@@ -436,6 +437,7 @@ class Device:
     bases: tuple[Base, ...] = ()
     stepped_commands: tuple[SteppedCommand, ...] = ()
     command: tuple[str, ...] = field(default=(), repr=False)
+    left_out: tuple[Point, ...] = field(default=(), repr=False)
 
     def base_of(self, point: Point) -> Base | None:
         """Return the base of a point's addresses; None if they count from 0."""
