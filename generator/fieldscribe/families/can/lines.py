@@ -77,9 +77,7 @@ class CanCutter:
         return ()
 
 
-def cutter() -> CanCutter:
-    """Return the cutter for messages."""
-    return CanCutter()
+cutter = CanCutter
 
 
 def packet(cut: Cut) -> Packet:

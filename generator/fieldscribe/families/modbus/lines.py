@@ -138,9 +138,7 @@ def _size_at(data: bytes, begins: bool) -> int:
     return len(data) if begins and unwrap("rtu", data).flaw is None else 0
 
 
-def cutter() -> ModbusCutter:
-    """Return the cutter for chunks of bytes."""
-    return ModbusCutter()
+cutter = ModbusCutter
 
 
 def chunk_of_text(text: str) -> Chunk:

@@ -149,9 +149,9 @@ def _of_point(view: PointView, scope: HeaderScope) -> Iterator[Named]:
         for entry, (name, _) in zip(flag.values, values, strict=True):
             yield Owner("entry", entry.name, Owner("enum", flag.enum)), (name,)
     yield from _of_shared(view, scope)
-    if view.special is not None and view.special.codes is not None and point.shared_codes:
-        codes, shared = view.special.codes, Owner("special codes", point.shared_codes)
-        yield shared, [codes.name + tail for tail in FUNCTIONS]
+    if view.codes is not None and point.shared_codes:
+        shared = Owner("special codes", point.shared_codes)
+        yield shared, [view.special + tail for tail in FUNCTIONS]
         yield from _of_codes(point, f"{scope.upper}_{upper(shared.name)}", shared)
     enum = point.named_numbers
     if view.enum is not None and enum is not None:

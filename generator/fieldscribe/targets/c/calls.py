@@ -199,7 +199,7 @@ def _value(view: PointView) -> tuple[str, str, str | None]:
     if view.point.has_counts:
         return "count", view.scale.count_type if view.scale is not None else "int64_t", "_count"
     if view.shape == "plain":
-        return "value", "bool" if view.raw_type == "bool" and view.special is None else value_type(view.point), ""
+        return "value", "bool" if view.raw_type == "bool" and not view.special else value_type(view.point), ""
     return "value", view.raw_type, None
 
 
@@ -210,7 +210,7 @@ def _decoding(
     raw = ("fieldscribe_signed32(raw)" if view.point.info.signed else "raw") if is_long else raw_of_words(view)
     if tail is None:
         return "READ", value, raw
-    if view.special is not None or view.shape in ("ruled", "float") or (view.scale and view.scale.count_fits):
+    if view.special or view.shape in ("ruled", "float") or (view.scale and view.scale.count_fits):
         return "DECODE", called(f"{view.function}_decode{tail}", raw, *passed, value)
     return "READ", value, called(f"{view.function}_decode{tail}", raw)
 

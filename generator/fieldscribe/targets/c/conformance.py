@@ -136,7 +136,7 @@ def _address_case(view: PointView) -> str:
 def _conversion_cases(view: PointView, scope: HeaderScope) -> Iterator[str]:
     """Yield the macros for the conversions of a point that is a number: one for the usual ones, else one for each."""
     point, scale = view.point, view.scale
-    attempt = "TRY_" if view.special is not None or view.shape == "ruled" else ""
+    attempt = "TRY_" if view.special or view.shape == "ruled" else ""
     tried = "TRY_" if scale is not None and scale.count_fits else attempt
     number = "int64_t" if scale is None else scale.count_type
     if view.shape == "plain":
@@ -204,7 +204,7 @@ def _text_cases(view: PointView) -> Iterator[str]:
 
 def _digits_cases(view: PointView) -> Iterator[str]:
     if view.point.readable:
-        yield f"{'TRY_' if view.special is not None else ''}DIGITS({view.function}, uint16_t, {view.macro})"
+        yield f"{'TRY_' if view.special else ''}DIGITS({view.function}, uint16_t, {view.macro})"
     if view.point.writable:
         yield f"DIGITS_ENCODE({view.function}, uint16_t, {view.macro})"
 

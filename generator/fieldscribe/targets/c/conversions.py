@@ -39,7 +39,7 @@ class Writer:
     """Writes the functions of one point."""
 
     def __init__(self, view: PointView, scope: HeaderScope) -> None:
-        self.point, self.fields, self.special, self.scope = view.point, view.fields, view.special, scope
+        self.point, self.fields, self.special, self.scope = view.point, view.fields, view.is_special, scope
         self.rule, self.scale = view.rule, view.scale
         self.name, self.macro = view.function, view.macro
         self.type, self.kind = view.raw_type, raw_kind(view.point)
@@ -56,9 +56,9 @@ class Writer:
     def _checked(self, number: str) -> str:
         """Return the status of writing a raw number computed from a value; a value never means a special code."""
         status = called(f"{self.name}_check", number, *self.scope.passed(self.point.limit_arguments))
-        if self.special is None or not self.special.written:
+        if not any(special.writable for special in self.point.specials):
             return status
-        return f"({self.special.test}({number}) ? FIELDSCRIBE_SPECIAL : {status})"
+        return f"({self.special}({number}) ? FIELDSCRIBE_SPECIAL : {status})"
 
     def _encode(self, tail: str, parameter: str, *body: str, floating: bool = False) -> Function:
         parameters = [parameter, *self.scope.parameters(self.point, self.point.arguments), f"{self.type} *raw"]
@@ -85,7 +85,7 @@ class Writer:
         If `fits` is false, the count takes integers of more than 64 bits.
         """
         raw = f"{self.type} raw"
-        if self.special is None and not fits:
+        if not self.special and not fits:
             body = f"return {number};"
             return function(f"{INLINE} {kind}", f"{self.name}_{tail}", (raw,), body, floating=floating)
         to = "count" if tail == "decode_count" else "value"
@@ -96,7 +96,7 @@ class Writer:
 
     def _unless_code(self, status: str) -> str:
         """Return the status of decoding `raw`, which may be a special code."""
-        return status if self.special is None else f"{self.special.test}(raw) ? FIELDSCRIBE_SPECIAL : {status}"
+        return status if not self.special else f"{self.special}(raw) ? FIELDSCRIBE_SPECIAL : {status}"
 
     # ---- points whose raw number is the value
 
@@ -106,8 +106,8 @@ class Writer:
         if point.writable:
             yield self._encode("encode", f"{kind} value", self._plain_body(kind))
         if point.readable:
-            number = "raw" if self.special is None or self.type != "bool" else "raw ? 1 : 0"
-            yield self._decode("decode", "bool" if self.type == "bool" and self.special is None else kind, number)
+            number = "raw" if not self.special or self.type != "bool" else "raw ? 1 : 0"
+            yield self._decode("decode", "bool" if self.type == "bool" and not self.special else kind, number)
 
     def _plain_body(self, kind: str) -> str:
         point = self.point

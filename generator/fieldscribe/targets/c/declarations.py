@@ -12,7 +12,7 @@ from fieldscribe.model import Flag, Point, Special
 from fieldscribe.targets.c.layout import INLINE, WIDTH, filled, folded, function
 from fieldscribe.targets.c.limits import bracketed, is_in
 from fieldscribe.targets.c.scope import HeaderScope, hexadecimal, raw_type, signed, unsigned
-from fieldscribe.targets.c.views import CodesView, Define, PointFields, SpecialView
+from fieldscribe.targets.c.views import CodesView, Define, PointFields
 from fieldscribe.text import c_comment, c_string, upper
 
 
@@ -183,31 +183,16 @@ FUNCTIONS = ("_is_special", "_special_name", "_is_no_value")
 """The ends of the names of their functions, after the name of the point or of the shared codes."""
 
 
-def special_view(point: Point, fields: PointFields, scope: HeaderScope, *, brings: bool) -> SpecialView | None:
-    """Return the view of a point's special codes; None if it has none.
+def codes_first(point: Point, test: str, check: str) -> str:
+    """Return a check that tests the special codes first: it accepts writable ones and refuses others.
 
-    `brings` says that this point defines the shared codes.
+    `test` is the function that recognises them; without codes it is empty.
     """
-    if not point.specials:
-        return None
-    own_prefix, name = f"{scope.prefix}_{fields.item}", f"{scope.prefix}_{point.shared_codes or fields.item}"
-    return SpecialView(
-        codes=_code_set(point, name, scope) if brings or not point.shared_codes else None,
-        test=f"{name}_is_special",
-        written=any(special.writable for special in point.specials),
-        aliases=tuple((own_prefix + tail, name + tail) for tail in FUNCTIONS) if own_prefix != name else (),
-    )
-
-
-def codes_first(point: Point, special: SpecialView | None, check: str) -> str:
-    """Return a check that tests the special codes first: it accepts writable ones and refuses others."""
-    if special is None:
+    if not test:
         return check
-    check = f"{special.test}(raw) ? FIELDSCRIBE_SPECIAL : ({check})"
-    if not special.written:
-        return check
-    writable = bracketed(_code_test(point, (code for code in point.specials if code.writable)))
-    return f"{writable} ? FIELDSCRIBE_OK : ({check})"
+    check = f"{test}(raw) ? FIELDSCRIBE_SPECIAL : ({check})"
+    writable = [code for code in point.specials if code.writable]
+    return f"{bracketed(_code_test(point, writable))} ? FIELDSCRIBE_OK : ({check})" if writable else check
 
 
 def code_defines(point: Point, macro: str) -> Iterator[Define]:
@@ -237,13 +222,12 @@ def encoded_limits(point: Point) -> tuple[int, int]:
     return min(low, *(special.low for special in point.specials)), high if point.scale is None else min(high, INT64[1])
 
 
-def _code_set(point: Point, name: str, scope: HeaderScope) -> CodesView:
+def code_set(point: Point, name: str, scope: HeaderScope) -> CodesView:
     """Return the set of codes, for the point that defines it."""
     shared = point.shared_codes
     return CodesView(
         comment=c_comment(f"Special codes of {shared}: raw numbers that are no quantity.") if shared else "",
         defines=tuple(code_defines(point, f"{scope.upper}_{upper(shared)}")) if shared else (),
-        name=name,
         functions=tuple(_code_functions(point, name)),
     )
 

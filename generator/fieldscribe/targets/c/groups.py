@@ -42,9 +42,9 @@ def facts_of(view: PointView, raw_decimals: str) -> list[str]:
     """
     point, fields = view.point, view.fields
     low, high, line, decimals = fields.low, fields.high, _ITSELF, raw_decimals
-    if view.special is None and view.shape == "plain":
+    if not view.special and view.shape == "plain":
         decimals = "0"
-    elif view.special is None and view.shape == "scaled" and point.has_counts:
+    elif not view.special and view.shape == "scaled" and point.has_counts:
         plan = plan_of(point.shape)
         if plan.beyond is None and plan.to_raw.factor > 0 and max(map(abs, plan.to_raw)) <= INT32[1]:
             low, high, line, decimals = fields.first, fields.last, plan.to_raw, f"{point.decimals}"
@@ -182,4 +182,4 @@ def _raw(point: Point, name: str, word: str) -> str:
 
 def _is_plainly_counted(point: Point, view: PointView) -> bool:
     """Return True if `decode_count` takes a raw number alone and always succeeds."""
-    return view.shape == "scaled" and view.is_counted and view.special is None and plan_of(point.shape).beyond is None
+    return view.shape == "scaled" and view.is_counted and not view.special and plan_of(point.shape).beyond is None

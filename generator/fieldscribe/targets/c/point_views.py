@@ -15,10 +15,10 @@ from fieldscribe.targets.c.conversions import Writer, value_type
 from fieldscribe.targets.c.declarations import (
     FUNCTIONS,
     PointComment,
+    code_set,
     defines,
     encoded_limits,
     range_words,
-    special_view,
     value_defines,
 )
 from fieldscribe.targets.c.layout import INLINE, WIDTH, Function, filled, function
@@ -155,6 +155,7 @@ def point_view(point: Point, fields: PointFields, scope: HeaderScope, scale: Sca
     struct = scope.struct(point.arguments) if len(point.arguments) > 1 else ""
     members = sorted(point.arguments) if struct and scope.is_first(point.item, struct) else ()
     enum, (brings_names, brings_codes, brought) = point.named_numbers, scope.brings(point)
+    special = f"{scope.prefix}_{point.shared_codes or fields.item}" if point.specials else ""
     return PointView(
         point=point,
         fields=fields,
@@ -173,7 +174,8 @@ def point_view(point: Point, fields: PointFields, scope: HeaderScope, scale: Sca
         rule=_first_rule_view(point, scope) if shape == "ruled" else None,
         shape=shape,
         raw_type=raw_type(point),
-        special=special_view(point, fields, scope, brings=brings_codes),
+        special=special,
+        codes=code_set(point, special, scope) if special and (brings_codes or not point.shared_codes) else None,
         scale=scale,
     )
 
@@ -204,7 +206,7 @@ def functions_of(view: PointView, scope: HeaderScope) -> Iterator[Function]:
     if view.shape == "text":
         yield from text_functions(point, name)
     elif view.shape == "digits":
-        yield from digits_functions(point, name, view.special, scope)
+        yield from digits_functions(point, name, view.is_special, scope)
     else:
         ways = {"plain": writer.plain, "scaled": writer.scaled, "ruled": writer.ruled, "float": writer.floating}
         yield from ways[view.shape]()
@@ -230,7 +232,7 @@ def symbols_of(view: PointView) -> list[tuple[str, str]]:
     symbols += [("_addresses", "OBJECT")] * (view.shape == "text" or point.place.is_scattered)
     symbols += [("_parts", "OBJECT")] * (point.text is not None and bool(point.text.parts))
     symbols += [(f"_{flag.name}", plain) for flag in point.flags if flag.width > 1]
-    symbols += [(tail, plain) for tail in FUNCTIONS] * (view.special is not None)
+    symbols += [(tail, plain) for tail in FUNCTIONS] * bool(view.special)
     return [(view.function + tail, sort) for tail, sort in symbols]
 
 

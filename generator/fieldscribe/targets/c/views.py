@@ -59,21 +59,7 @@ class CodesView(NamedTuple):
 
     comment: str
     defines: tuple[Define, ...]
-    name: str
     functions: tuple[str, ...]
-
-
-class SpecialView(NamedTuple):
-    """The special codes of a point.
-
-    `codes` is None if the set was emitted for an earlier point. `test` is the function that recognises them, `written`
-    is True if some may be written. `aliases` are the functions of shared codes under the point's name.
-    """
-
-    codes: CodesView | None
-    test: str
-    written: bool
-    aliases: tuple[Define, ...]
 
 
 class RuleView(NamedTuple):
@@ -90,7 +76,9 @@ class PointView:
     `shared_values` are the macros of shared enums of flags that no earlier point has, each with a flag that has them.
     `tables` are declarations of arrays with their rows. `struct` holds the raw numbers of other points, if functions
     need several; `members` are its members if no earlier point has it. `shape` is the form of the functions: `plain`,
-    `scaled`, `ruled`, `float`, `text` or `digits`. `scale` has the expressions of a scale without run-time factors.
+    `scaled`, `ruled`, `float`, `text` or `digits`. `special` is what the functions of its special codes begin with,
+    empty without codes; `codes` are these if no earlier point has them. `scale` has the expressions of a scale without
+    run-time factors.
     """
 
     point: Point
@@ -106,8 +94,14 @@ class PointView:
     rule: RuleView | None
     shape: str
     raw_type: str
-    special: SpecialView | None
+    special: str
+    codes: CodesView | None
     scale: Scaled | None
+
+    @property
+    def is_special(self) -> str:
+        """The function that recognises special codes; empty without codes."""
+        return self.special and f"{self.special}_is_special"
 
     @property
     def is_counted(self) -> bool:

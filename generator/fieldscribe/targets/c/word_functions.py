@@ -7,7 +7,6 @@ from fieldscribe.model import Point, Text
 from fieldscribe.targets.c.layout import INLINE, STATUS, Function, function
 from fieldscribe.targets.c.limits import digits_arguments
 from fieldscribe.targets.c.scope import HeaderScope, hexadecimal, raw_type
-from fieldscribe.targets.c.views import SpecialView
 from fieldscribe.text import upper
 
 
@@ -83,24 +82,24 @@ def _unicode_functions(point: Point, layout: Text, name: str, words: str) -> Ite
         yield function(STATUS, f"{name}_decode", parameters, body)
 
 
-def digits_functions(point: Point, name: str, special: SpecialView | None, scope: HeaderScope) -> Iterator[Function]:
-    """Yield the conversions of digits."""
+def digits_functions(point: Point, name: str, special: str, scope: HeaderScope) -> Iterator[Function]:
+    """Yield the conversions of digits; `special` is the function that recognises special codes, empty without codes."""
     assert point.digits is not None
     count, known = point.digits.count, digits_arguments(point, scope)
     digits = f"uint16_t digits[{count}]"
     if point.writable:
         whole = f"const fieldscribe_whole whole = fieldscribe_number_of_digits(digits, {known});"
         status = "whole.status"
-        if special is not None:
-            refused = f"{special.test}((uint16_t)whole.number) ? FIELDSCRIBE_SPECIAL : FIELDSCRIBE_OK"
+        if special:
+            refused = f"{special}((uint16_t)whole.number) ? FIELDSCRIBE_SPECIAL : FIELDSCRIBE_OK"
             status = f"fieldscribe_both(whole.status, {refused})"
         store = f"return fieldscribe_keep_u16({status}, (uint16_t)whole.number, raw);"
         yield function(STATUS, f"{name}_encode", (f"const {digits}", "uint16_t *raw"), whole, store)
-    if point.readable and special is None:
+    if point.readable and not special:
         body = f"fieldscribe_digits_of(raw, digits, {count}U);"
         yield function(f"{INLINE} void", f"{name}_decode", ("uint16_t raw", digits), body)
-    elif point.readable and special is not None:
-        body = f"return fieldscribe_quantity_digits({special.test}(raw), raw, digits, {count}U);"
+    elif point.readable:
+        body = f"return fieldscribe_quantity_digits({special}(raw), raw, digits, {count}U);"
         yield function(STATUS, f"{name}_decode", ("uint16_t raw", digits), body)
 
 

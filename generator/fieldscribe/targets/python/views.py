@@ -167,7 +167,7 @@ def points_context(device: Device, names: Identifiers, render: Render) -> dict[s
     attributes = Attributes(scope, render)
     titles = {group.name: comment(f"{group.name}: {group.title['en']}") for group in device.groups}
     groups = {group: list(map(attributes.of, found)) for group, found in members(device).items()}
-    commands = "".join([attributes.text(_command(*command, scope)) for command in commands_of(scope)])
+    commands = "".join([attributes.of_command(command, made) for command, made in commands_of(scope)])
     profile, *facts = [laid_out(node, 4, f"{name}: ClassVar = ") for name, node in class_facts(scope).items()]
     return {
         "imports": _imports(scope.used - {"enums"}, family),
@@ -212,20 +212,6 @@ def _open_points(device: Device) -> Iterable[str]:
         )
 
 
-def _command(command: Command | SteppedCommand, made: Call, scope: Scope) -> AttributeView:
-    return attribute_view(scope.commands[command.name], made, docstring((python_doc(command_text(command)),)))
-
-
-class AttributeView(NamedTuple):
-    """An attribute: its name, the function that makes it, its arguments, its docstring, its old names."""
-
-    name: str
-    maker: str
-    arguments: tuple[str, ...]
-    docstring: str
-    old_names: tuple[str, ...] = ()
-
-
 class Attributes:
     """Builds the texts of a device's attributes."""
 
@@ -251,20 +237,25 @@ class Attributes:
         )
         fields = self._fields(point, limits, remarks)
         whole = key, tuple(map(len, fields[_FREE:]))
-        return self._texts.fill(whole, fields, lambda fields: self.text(self._view(point, fields)))
+        return self._texts.fill(whole, fields, lambda fields: self._laid_out(point, fields))
 
     def by_variant(self, points: Mapping[Variant, Point]) -> str:
         """Return the attribute of points that have one name in different variants."""
         variant, first = next(iter(points.items()))
         doc = docstring(wrapped(python_doc(f"{first.title['en']}, as the device's {variant.axis} has it.")))
         made = variants_call(points, self._scope)
-        return self.text(attribute_view(attribute(first.name), made, doc, old_names_of(points)))
+        return self._text(attribute(first.name), made, doc, old_names_of(points))
 
-    def text(self, view: AttributeView) -> str:
-        """Return the text of an attribute."""
-        if view.old_names:
+    def of_command(self, command: Command | SteppedCommand, made: Call) -> str:
+        """Return the attribute of a command."""
+        return self._text(self._scope.commands[command.name], made, docstring((python_doc(command_text(command)),)))
+
+    def _text(self, name: str, made: Call, doc: str, old_names: tuple[str, ...] = ()) -> str:
+        """Return the text of an attribute: its name, the call that makes it, its docstring, its old names."""
+        if old_names:
             self._scope.runtime("renamed")
-        return self._render("python/attribute.py.j2", {"attribute": view})
+        view = {"name": name, "maker": made.name, "arguments": arguments(made, BODY), "docstring": doc}
+        return self._render("python/attribute.py.j2", {"attribute": {**view, "old_names": old_names}})
 
     def _fields(self, point: Point, limits: LimitTexts, remarks: tuple[str, list[str]]) -> tuple[str, ...]:
         """Return the texts that only this point has: attribute, docstring, then those of `PointFields`."""
@@ -274,14 +265,9 @@ class Attributes:
             *texts_of(point, numbers_of(point, self._scope), limits[1], (python_string, leaf)),
         )
 
-    def _view(self, point: Point, texts: Sequence[str]) -> AttributeView:
+    def _laid_out(self, point: Point, texts: Sequence[str]) -> str:
         made = call_of(point, fields_of_texts(texts[2:], point), self._scope)
-        return attribute_view(texts[0], made, texts[1], old_attributes(point, self._scope))
-
-
-def attribute_view(name: str, made: Call, doc: str, old_names: tuple[str, ...] = ()) -> AttributeView:
-    """Return the view of the attribute of a call."""
-    return AttributeView(name, made.name, arguments(made, BODY), doc, old_names)
+        return self._text(texts[0], made, texts[1], old_attributes(point, self._scope))
 
 
 def _limits_of(point: Point, scope: Scope) -> LimitTexts:
@@ -291,7 +277,7 @@ def _limits_of(point: Point, scope: Scope) -> LimitTexts:
 def _docstring(title: str, limits: str, remarks: str, errata: list[str]) -> str:
     """Return the lines of a docstring: title, limits, remarks, and the errata that change facts."""
     text = f"{title}: {limits}" if limits else title
-    lines = wrapped(python_doc(f"{text}{'' if text.endswith('.') else '.'}{remarks}"))
+    lines = wrapped(python_doc(sentence(text) + remarks))
     return docstring(lines + errata)
 
 

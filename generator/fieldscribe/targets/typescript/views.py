@@ -124,8 +124,6 @@ class Points:
         self.layout = Layout(in_typescript(device).makers, camel)
         self._keys = self.scope.lowered.template_keys
         self._texts = TextTemplates()
-        self._types: dict[tuple[int, str], str] = {}
-        self._remarks: dict[int, str] = {}
 
     def text(self, point: Point) -> str:
         """Return the constant of a point."""
@@ -152,17 +150,10 @@ class Points:
 
     def declared(self, point: Point) -> Declared:
         """Return the declaration of a point."""
-        scope, key = self.scope, self._keys[id(point)]
-        numbers = numbers_of(point, scope)
-        kind = self._types.get((key, numbers))
-        if kind is None:
-            kind = self._types[key, numbers] = type_of(point, family_calls(scope.device).maker(point), scope)
-        said = self._remarks.get(key)
-        if said is None:
-            said = self._remarks[key] = f"{remarks_text(point, scope, _KEEP)}{self._errata(point)}"
-        limits = limits_text(point, scope)
+        scope, limits = self.scope, limits_text(point, self.scope)
+        kind = type_of(point, family_calls(scope.device).maker(point), scope)
         title = f"{point.title['en']}: {limits}" if limits else point.title["en"]
-        doc = doc_lines(js_comment(f"{title}{'' if title.endswith('.') else '.'}{said}"))
+        doc = doc_lines(js_comment(f"{sentence(title)}{remarks_text(point, scope, _KEEP)}{self._errata(point)}"))
         return Declared(attribute(point.item), doc, kind, _old_names(point))
 
     def commands(self) -> Iterator[tuple[str, Declared]]:
@@ -277,28 +268,10 @@ def device_context(device: Device, names: Identifiers) -> dict[str, object]:
 # The module of enums.
 
 
-class Numbers(NamedTuple):
-    """Names for numbers: the object, its comment, and its entries as name, number, comment."""
-
-    name: str
-    comment: tuple[str, ...]
-    entries: tuple[tuple[str, str, str], ...]
-
-
-class WordOfFlags(NamedTuple):
-    """A word of flags: its comment, the call that makes it, and its flags as name, type, comment, whether writable."""
-
-    name: str
-    comment: tuple[str, ...]
-    made: str
-    flags: tuple[tuple[str, str, str, bool], ...]
-    is_written: bool
-
-
 def enums_context(names: Identifiers) -> dict[str, object]:
     """Return the context of the module: numbers with names, and words of flags."""
     layout = Layout({"Flag": "bitFlag", "Field": "bitField"}, camel)
-    numbers, words = list[Numbers](), list[WordOfFlags]()
+    numbers, words = list[dict[str, object]](), list[dict[str, object]]()
     for each in names.in_order():
         if isinstance(each, Point):
             words.append(_word(each, names, layout))
@@ -307,12 +280,14 @@ def enums_context(names: Identifiers) -> dict[str, object]:
     return {"numbers": numbers, "words": words, "old_names": sorted(names.old_classes.items())}
 
 
-def _named(name: str, title: str, entries: tuple[Entry, ...]) -> Numbers:
-    shown = tuple((upper(entry.name), str(entry.raw), js_comment(entry_text(entry))) for entry in entries)
-    return Numbers(name, _sentence(title), shown)
+def _named(name: str, title: str, entries: tuple[Entry, ...]) -> dict[str, object]:
+    """Return names for numbers; each entry is its name, number and comment."""
+    shown = [(upper(entry.name), str(entry.raw), js_comment(entry_text(entry))) for entry in entries]
+    return {"name": name, "comment": _sentence(title), "entries": shown}
 
 
-def _word(point: Point, names: Identifiers, layout: Layout) -> WordOfFlags:
+def _word(point: Point, names: Identifiers, layout: Layout) -> dict[str, object]:
+    """Return a word of flags: the call that makes it, and its flags as name, type, comment, whether writable."""
     mask, bits = (point.fixed.mask, point.fixed.bits) if point.fixed else (0, 0)
     classes = {flag.name: names.field_class(point, flag.name) for flag in point.flags}
     readers: dict[str, Node] = {word_attribute(flag): reader(flag, classes[flag.name]) for flag in point.flags}
@@ -327,7 +302,14 @@ def _word(point: Point, names: Identifiers, layout: Layout) -> WordOfFlags:
         for flag in point.flags
     )
     text = f"export const {name} = {lazily(layout.laid_out(made, 0))};"
-    return WordOfFlags(name, _sentence(point.title["en"]), text, flags, point.writable and not is_big(point))
+    is_written = point.writable and not is_big(point)
+    return {
+        "name": name,
+        "comment": _sentence(point.title["en"]),
+        "made": text,
+        "flags": flags,
+        "is_written": is_written,
+    }
 
 
 def _type(flag: Flag, numbers: str | None) -> str:

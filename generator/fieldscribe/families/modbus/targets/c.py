@@ -5,9 +5,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import chain
+from typing import Any
 
 from fieldscribe.families.modbus import BIT_LISTS, FUNCTIONS, SPACES, Profile, profile_of
-from fieldscribe.families.modbus.targets.c_rows import IdentifyView, Selections, can_identify, names_of_call
+from fieldscribe.families.modbus.targets.c_rows import IdentifyView, Selections, identifies
 from fieldscribe.model import Base, Block, Command, Device, Found, Point, SteppedCommand
 from fieldscribe.targets.c import frames
 from fieldscribe.targets.c.calls import Transfer
@@ -15,7 +16,7 @@ from fieldscribe.targets.c.groups import Members, Part, StructView, facts_of, ha
 from fieldscribe.targets.c.layout import called
 from fieldscribe.targets.c.point_views import GeneratedPoint
 from fieldscribe.targets.c.scope import HeaderScope, hexadecimal, unsigned
-from fieldscribe.targets.c.views import Define, PointView
+from fieldscribe.targets.c.views import PointView
 from fieldscribe.targets.c.word_functions import is_plain_long, places_of
 from fieldscribe.targets.identifiers import Named, Owner
 from fieldscribe.text import c_comment, upper
@@ -77,22 +78,9 @@ class SteppedView:
         return f'"{self.command.name}", {self.steps}, {{{given}0U}}'
 
 
-def stepped_views(commands: tuple[SteppedCommand, ...], scope: HeaderScope) -> list[SteppedView]:
-    """Return the views of the commands."""
-    return [
-        SteppedView(
-            command, f"{scope.prefix}_command_{command.name}_steps", f"{scope.upper}_COMMAND_{upper(command.name)}"
-        )
-        for command in commands
-    ]
-
-
-def identifies(device: Device) -> bool:
-    """Return True if a call tells the device and its variants."""
-    most = profile_of(device.bus).most
-    return can_identify(
-        device, lambda point: point.space in SPACES and most.get(SPACES[point.space].read, 0) >= point.words
-    )
+def _stepped(command: SteppedCommand, scope: HeaderScope) -> SteppedView:
+    name = f"{scope.prefix}_command_{command.name}_steps"
+    return SteppedView(command, name, f"{scope.upper}_COMMAND_{upper(command.name)}")
 
 
 _LAST = 0xFFFF
@@ -118,15 +106,6 @@ class BlocksView:
             yield unsigned(block.function), hexadecimal(block.address), unsigned(block.count), holds
 
 
-@dataclass(frozen=True, slots=True)
-class CommandView:
-    """A command: a write of a constant, with a name."""
-
-    descriptor: frames.Descriptor
-    comment: str
-    defines: tuple[Define, ...]
-
-
 def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope) -> frames.FramesHeader:
     """Return the header of frames, `<device>_modbus.h`."""
     profile = profile_of(device.bus)
@@ -144,7 +123,7 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
     ]
     block_most = f"{scope.upper}_BLOCK_MOST", unsigned(max(counts, default=0))
     commands = [_command(command, scope) for command in device.commands]
-    stepped = stepped_views(device.stepped_commands, scope)
+    stepped = [_stepped(command, scope) for command in device.stepped_commands]
     bases = [_base(base, device, scope) for base in device.bases if base.block is None]
     found = device.found and f"{scope.prefix}_{device.found.name}"
     selections = Selections(device, profile, scope, bool(device.selecting))
@@ -156,7 +135,7 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
     most = [unsigned(profile.most.get(number, 0)) for number in sorted(FUNCTIONS)] if profile.most else []
     to_all = sum(1 << number for number in profile.broadcasts & profile.most.keys())
 
-    identify = _identify(device, placed, scope)
+    identify = IdentifyView(device, scope, placed) if identifies(device) else None
 
     def identifiers() -> Iterator[Named]:
         target = [f"{scope.prefix}_{name}" for name in ("modbus_profile", "device")]
@@ -172,7 +151,7 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
         for view in blocks:
             yield Owner("group", view.name), (view.array, *view.values.names)
         for command, command_view in zip(device.commands, commands, strict=True):
-            names = command_view.descriptor.name, *(name for name, _ in command_view.defines)
+            names = command_view["descriptor"].name, *(name for name, _ in command_view["defines"])
             yield Owner("command", command.name), names
         for each in stepped:
             yield Owner("command", each.command.name), each.names
@@ -181,7 +160,7 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
         device,
         layouts,
         {"frames": of_points},
-        chain(identifiers(), names_of_call(identify)),
+        chain(identifiers(), () if identify is None else [identify.named]),
         most=", ".join(most),
         to_all=hexadecimal(to_all),
         broadcast="FIELDSCRIBE_MODBUS_NO_BROADCAST" if profile.broadcast is None else f"{profile.broadcast}U",
@@ -202,13 +181,6 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
         identify=identify,
         exceptions=frames.exceptions_of(device, scope),
     )
-
-
-def _identify(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope) -> IdentifyView | None:
-    def read_of(point: Point) -> str:
-        return f"{{{unsigned(SPACES[point.space].read)}, {hexadecimal(min(point.addresses))}, {point.words}U}}"
-
-    return IdentifyView(device, scope, placed, read_of) if identifies(device) else None
 
 
 def _base(base: Base, device: Device, scope: HeaderScope) -> dict[str, str]:
@@ -348,7 +320,8 @@ def _blocks(
     return BlocksView(group, f"{members.scope.prefix}_{group}_blocks", values, blocks, by_name)
 
 
-def _command(command: Command, scope: HeaderScope) -> CommandView:
+def _command(command: Command, scope: HeaderScope) -> dict[str, Any]:
+    """Return a command: a write of a constant, with a name."""
     macro = f"{scope.upper}_COMMAND_{upper(command.name)}"
     value = "1U" if command.value is None else unsigned(command.value)
     comment = c_comment(command.title["en"]) + (": any value does" if command.value is None else "")
@@ -360,7 +333,7 @@ def _command(command: Command, scope: HeaderScope) -> CommandView:
         f"{scope.prefix}_command_{command.name}",
         f"{{{{{unsigned(command.function)}, {macro}_ADDRESS, 1U}}, {macro}_VALUE}}",
     )
-    return CommandView(descriptor, f"{comment}.", defines)
+    return {"descriptor": descriptor, "comment": f"{comment}.", "defines": defines}
 
 
 IN_C = frames.CFamily(header, has_facts=True, identifies=identifies)

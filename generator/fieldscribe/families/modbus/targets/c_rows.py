@@ -5,13 +5,13 @@ each with a function that tests their words. `Selections` has the rows of what s
 `c.py` writes both.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import groupby
 
 from fieldscribe.arithmetic.words import group_mask, insert, words_of
-from fieldscribe.families.modbus import SPACES, Profile
+from fieldscribe.families.modbus import SPACES, Profile, profile_of
 from fieldscribe.model import Device, Identification, Point
 from fieldscribe.model.device import WHOLE_WORD
 from fieldscribe.targets.c.calls import raw_of_words
@@ -34,8 +34,6 @@ class IdentifyView:
     device: Device
     scope: HeaderScope
     points: Sequence[GeneratedPoint]
-    read_of: Callable[[Point], str]
-    """Returns the request that reads a point: `{3U, 0x0000U, 1U}`."""
 
     @cached_property
     def axes(self) -> dict[str, list[str]]:
@@ -99,29 +97,29 @@ class IdentifyView:
             if row.variant is not None:
                 axis = 1 + axes.index(row.variant.axis)
                 value = 1 + self.axes[row.variant.axis].index(row.variant.value)
-            yield f"{{{axis}U, {value or 1}U, {self.read_of(points[row.point])}, &{self._holds(number)}}}"
+            yield f"{{{axis}U, {value or 1}U, {_read_of(points[row.point])}, &{self._holds(number)}}}"
 
     def _holds(self, number: int) -> str:
         return f"{self.name}_holds_{number}"
 
 
-def names_of_call(view: IdentifyView | None) -> list[Named]:
-    """Return all identifiers of the call, if there is one."""
-    return [] if view is None else [view.named]
+def _read_of(point: Point) -> str:
+    """Return the request that reads a point: `{3U, 0x0000U, 1U}`."""
+    return f"{{{unsigned(SPACES[point.space].read)}, {hexadecimal(min(point.addresses))}, {point.words}U}}"
 
 
-def can_identify(device: Device, is_read: Callable[[Point], bool]) -> bool:
+def identifies(device: Device) -> bool:
     """Return True if requests alone tell the device: all points that do are read by one each, in their order."""
     told = {row.point for row in device.identifications}
-    points = [point for point in device.points if point.name in told]
+    points, most = [point for point in device.points if point.name in told], profile_of(device.bus).most
     few = len(device.variants) < _MOST and all(len(values) <= _MOST for values in device.variants.values())
-    bases = {point.base for point in points}
-    return bool(told) and few and len(bases) == 1 and all(_is_plain(point) and is_read(point) for point in points)
+    are_read = all(_is_plain(point) and most.get(SPACES[point.space].read, 0) >= point.words for point in points)
+    return bool(told) and few and are_read and len({point.base for point in points}) == 1
 
 
 def _is_plain(point: Point) -> bool:
     ordered = point.text is None or list(point.place.addresses) == sorted(point.place.addresses)
-    return point.generated and not point.place.is_scattered and ordered
+    return point.generated and point.space in SPACES and not point.place.is_scattered and ordered
 
 
 def _literal(row: Identification, place: int, macro: str) -> str:
