@@ -6,11 +6,21 @@ from fractions import Fraction
 from fieldscribe.arithmetic.words import INT64
 from fieldscribe.model import Point
 from fieldscribe.targets.c.declarations import codes_first, encoded_limits
-from fieldscribe.targets.c.layout import INLINE, STATUS, Function, called, function
+from fieldscribe.targets.c.layout import (
+    INLINE,
+    STATUS,
+    VALUE_BOUNDS,
+    Function,
+    bare,
+    called,
+    function,
+    raw_kind,
+    sign_and_size,
+    unsigned,
+)
 from fieldscribe.targets.c.limits import check, known, refused
 from fieldscribe.targets.c.scales import Scaled, linear
-from fieldscribe.targets.c.scope import VALUE_BOUNDS, HeaderScope, bare, raw_kind, sign_and_size, unsigned
-from fieldscribe.targets.c.views import PointView
+from fieldscribe.targets.c.scope import HeaderScope, PointView
 from fieldscribe.targets.c.word_functions import fixed_number, fixes
 
 _POWERS = 9

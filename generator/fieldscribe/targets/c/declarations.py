@@ -9,10 +9,19 @@ from fieldscribe import wording
 from fieldscribe.arithmetic.texts import epoch_in_unix
 from fieldscribe.arithmetic.words import INT64, group_mask
 from fieldscribe.model import Flag, Point, Special
-from fieldscribe.targets.c.layout import INLINE, WIDTH, filled, folded, function
+from fieldscribe.targets.c.layout import (
+    INLINE,
+    WIDTH,
+    filled,
+    folded,
+    function,
+    hexadecimal,
+    raw_type,
+    signed,
+    unsigned,
+)
 from fieldscribe.targets.c.limits import bracketed, is_in
-from fieldscribe.targets.c.scope import HeaderScope, hexadecimal, raw_type, signed, unsigned
-from fieldscribe.targets.c.views import CodesView, Define, PointFields
+from fieldscribe.targets.c.scope import CodesView, Define, HeaderScope, PointFields
 from fieldscribe.text import c_comment, c_string, upper
 
 

@@ -1,93 +1,19 @@
-"""The state of a header while it is built: prefixes, points, shared items already emitted; and literals of C."""
+"""The state of a header while it is built, and the views of its points for the templates.
+
+Views have final identifiers, literals and functions: nothing is left to decide.
+"""
+
+from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from fractions import Fraction
-from functools import lru_cache
-from typing import Any
+from typing import NamedTuple
 
-from fieldscribe.arithmetic.exact import pattern_of
-from fieldscribe.arithmetic.words import INT32, INT64, UINT64
 from fieldscribe.lowered import Lowered, lower
-from fieldscribe.model import Device, Point
+from fieldscribe.model import Device, Flag, Point
+from fieldscribe.targets.c.layout import raw_type
+from fieldscribe.targets.c.scales import Scaled
 from fieldscribe.text import upper
-
-VALUE_BOUNDS = {"int32_t": INT32, "int64_t": INT64, "uint64_t": UINT64}
-"""The bounds of the types in which values and counts are passed."""
-
-_PATTERNS = {"f32": "u32", "f64": "u64", "text": "u16"}
-"""The types that hold floating-point patterns, and one word of a text."""
-
-
-def wire_kind(point: Point) -> str:
-    """Return the type of a point's raw number (of a text: of one word), as the runtime names layouts: `u16`, `bit`."""
-    return _PATTERNS.get(point.type, point.type)
-
-
-def raw_kind(point: Point) -> str:
-    """Return the type of a point's raw number, as in the names of the runtime's cores: `u16`, `bool`."""
-    return "bool" if point.type == "bit" else wire_kind(point)
-
-
-def raw_type(point: Point) -> str:
-    """Return the C type of a point's raw number (of a text: of one word)."""
-    kind = raw_kind(point)
-    return kind if kind == "bool" else f"{'int' if kind[0] == 's' else 'uint'}{kind[1:]}_t"
-
-
-def cast(kind: str, number: str) -> str:
-    """Return a number as another type."""
-    return f"({kind}){number}" if number.isidentifier() else f"({kind})({number})"
-
-
-def sign_and_size(point: Point) -> tuple[str, str]:
-    """Return two expressions: whether `raw` is negative, and its magnitude."""
-    if not point.info.signed:
-        return "false", "raw"
-    return "raw < 0", "fieldscribe_magnitude(raw)"
-
-
-@lru_cache(maxsize=65536)
-def signed(number: int) -> str:
-    """Return a number as a constant for any expression or `#define`, signed if a signed type can hold it."""
-    if number > INT64[1]:
-        return f"UINT64_C({number})"
-    if number >= 0:
-        return str(number)
-    return f"({number})" if number > INT64[0] else f"({number + 1} - 1)"
-
-
-@lru_cache(maxsize=65536)
-def bare(number: int) -> str:
-    """Return a number as a signed constant without brackets, for comparisons and arguments."""
-    return str(number) if INT64[0] < number <= INT64[1] else signed(number)
-
-
-@lru_cache(maxsize=65536)
-def unsigned(number: int) -> str:
-    """Return a number of 0 or more as an unsigned constant."""
-    return f"{number}U" if number < 1 << 32 else f"UINT64_C({number})"
-
-
-@lru_cache(maxsize=65536)
-def hexadecimal(number: int, digits: int = 4) -> str:
-    """Return an address or mask as an unsigned constant: `0x1028U`."""
-    return f"0x{number:0{digits}X}U" if number < 1 << 32 else f"UINT64_C(0x{number:0{digits}X})"
-
-
-def float_order(value: float, bits: int) -> int:
-    """Return the rank of the nearest binary32 or binary64 among all numbers of its type; 0 and -0 have rank 0."""
-    infinity = 0x7F80_0000 if bits == 32 else 0x7FF0 << 48
-    try:
-        size = min(pattern_of(abs(value), bits), infinity - 1)
-    except OverflowError:
-        size = infinity - 1
-    return -size if value < 0 else size
-
-
-def real(number: Fraction) -> str:
-    """Return the nearest binary64 number as a constant that converts back to the same bits."""
-    return repr(number.numerator / number.denominator)
 
 
 @dataclass(slots=True)
@@ -110,7 +36,7 @@ class HeaderScope:
     spelling: str = "{}_raw"
     shared: dict[str, str] = field(default_factory=dict)
     calls_only: bool = False
-    left_out: Callable[[Any], set[str]] = lambda _: set()
+    left_out: Callable[[PointView], set[str]] = lambda _: set()
 
     @property
     def points(self) -> Mapping[str, Point]:
@@ -171,3 +97,128 @@ def _spaces(device: Device) -> dict[str, str | None]:
         if spaces.setdefault(terms.group, terms.space) != terms.space:
             spaces[terms.group] = None
     return spaces
+
+
+# Views.
+
+
+Define = tuple[str, str]
+"""A macro's name and its literal."""
+
+
+class PointFields(NamedTuple):
+    """The words of one point, finished for C, or placeholders for them; an absent fact is empty.
+
+    `comment` is all of the comment above the point. `macro` is the item in capitals. `low` and `high` bound raw
+    numbers, `first` and `last` counts. `address` is the lowest one, and `number` the same in decimal; `start` and `end`
+    are the first and the last. `references` are literals.
+    """
+
+    comment: str
+    item: str
+    macro: str
+    low: str
+    high: str
+    low_signed: str
+    high_signed: str
+    first: str
+    last: str
+    address: str
+    start: str
+    end: str
+    number: str
+    code: str
+    references: tuple[str, ...]
+
+    @classmethod
+    def of(cls, fields: tuple[str, ...]) -> PointFields:
+        """Return the fields from a sequence of all their texts."""
+        single = len(cls._fields) - 1
+        return cls._make((*fields[:single], fields[single:]))
+
+
+class EnumView(NamedTuple):
+    """Enumerators (name, literal, comment), the table of their names in lines, and the function that looks one up."""
+
+    entries: tuple[tuple[str, str, str], ...]
+    fits_int: bool
+    table: str
+    names: tuple[str, ...]
+    function: str
+    lookup: str
+
+
+class CodesView(NamedTuple):
+    """A set of special codes: its functions, and its macros if several points share it."""
+
+    comment: str
+    defines: tuple[Define, ...]
+    functions: tuple[str, ...]
+
+
+class RuleView(NamedTuple):
+    """The function that gives the rule of a scale, and its text if no earlier point has it."""
+
+    name: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PointView:
+    """A generated point; or the first of several with the same text, whose fields are then placeholders.
+
+    `shared_values` are the macros of shared enums of flags that no earlier point has, each with a flag that has them.
+    `tables` are declarations of arrays with their rows. `struct` holds the raw numbers of other points, if functions
+    need several; `members` are its members if no earlier point has it. `shape` is the form of the functions: `plain`,
+    `scaled`, `ruled`, `float`, `text` or `digits`. `special` is what the functions of its special codes begin with,
+    empty without codes; `codes` are these if no earlier point has them. `scale` has the expressions of a scale without
+    run-time factors.
+    """
+
+    point: Point
+    fields: PointFields
+    function: str
+    macro: str
+    defines: tuple[Define, ...]
+    shared_values: tuple[tuple[Flag, tuple[Define, ...]], ...]
+    enum: EnumView | None
+    tables: tuple[tuple[str, tuple[str, ...]], ...]
+    struct: str
+    members: tuple[tuple[str, str], ...]
+    rule: RuleView | None
+    shape: str
+    raw_type: str
+    special: str
+    codes: CodesView | None
+    scale: Scaled | None
+
+    @property
+    def is_special(self) -> str:
+        """The function that recognises special codes; empty without codes."""
+        return self.special and f"{self.special}_is_special"
+
+    @property
+    def is_counted(self) -> bool:
+        """True if functions convert counts in addition to values."""
+        return self.shape in ("scaled", "ruled") and self.point.decimals is not None
+
+    @property
+    def computes_in_double(self) -> bool:
+        """True if the value is a double even if the user has chosen float for values."""
+        if self.scale is not None:
+            return self.scale.wide
+        return self.shape == "ruled" or (self.shape == "float" and self.raw_type == "uint64_t")
+
+
+class AliasView(NamedTuple):
+    """An old name of something that belongs to a renamed point; `was` is the old name of the point.
+
+    `sort` is its kind for the conformance program: NUMBER, FUNCTION, FLOATING_FUNCTION, OBJECT or STRUCT.
+    """
+
+    was: str
+    old_item: str
+    item: str
+    old: str = ""
+    new: str = ""
+    sort: str = ""
