@@ -36,8 +36,8 @@ from fieldscribe.wording.numbers import hex_text, spaced
 from fieldscribe.wording.rules import run_text, steps_texts
 
 
-def facts(device: Device, form: Form) -> list[tuple[str, str]]:
-    """Return label and text of each fact of the whole device."""
+def facts(device: Device, form: Form) -> str:
+    """Return the table of the facts of the whole device."""
     generated = sum(point.generated for point in device.points)
     rows = [
         ("Device", form.code(device.id)),
@@ -49,7 +49,7 @@ def facts(device: Device, form: Form) -> list[tuple[str, str]]:
     rows += [
         (form.cell(f"Variants by {axis}"), form.cell(", ".join(values))) for axis, values in device.variants.items()
     ]
-    return rows
+    return form.by_rows(("Fact", "Value"), rows)
 
 
 def documents(device: Device, form: Form) -> str:
@@ -96,8 +96,10 @@ def bases(device: Device, form: Form) -> str:
     return form.table(device.bases, columns, always=("Base", "Groups"))
 
 
-def found(chain: Found, form: Form) -> str:
-    """Return how to find the blocks."""
+def found(chain: Found | None, form: Form) -> str:
+    """Return how to find the blocks; empty if there are none to find."""
+    if chain is None:
+        return ""
     places = ", ".join(map(wording.address_text, chain.places))
     return form.cell(
         f"{wording.title_text(chain.title)}: read {counted(len(chain.words), 'word')} of the space {chain.space} at "

@@ -257,16 +257,15 @@ def _sections(scope: DocsScope) -> Iterable[Section]:
     """Yield the sections of the page with their contents; empty tables are left out."""
     device, form = scope.device, MARKED
     bus = bus_view(device, form)
-    found = device_tables.found(device.found, form) if device.found is not None else ""
     sections: dict[str, list[tuple[str, str]]] = {
         "bus": [("", bus.note), ("Line", bus.facts), *bus.sections],
         "frames": [("Worked frames", device_tables.frames(scope, form))],
         "device": [
-            ("Facts", form.by_rows(("Fact", "Value"), device_tables.facts(device, form))),
+            ("Facts", device_tables.facts(device, form)),
             ("Documents", device_tables.documents(device, form)),
             ("Identification", device_tables.identifications(scope, form)),
             ("Bases", device_tables.bases(device, form)),
-            ("Found blocks", found),
+            ("Found blocks", device_tables.found(device.found, form)),
             ("Special codes", device_tables.codes(device, form)),
             ("Documented only", device_tables.missing(device, form)),
         ],

@@ -49,11 +49,11 @@ def page_of(scope: DocsScope) -> dict[str, object]:
         "regenerate": code(command_line(device, "docs")),
         "heading": cell(f"{device.vendor} {device.model}: {wording.title_text(device.title)}"),
         "note": paragraph(wording.title_text(device.note)) if device.note else "",
-        "facts": by_rows(("Fact", "Value"), device_tables.facts(device, MARKDOWN)),
+        "facts": device_tables.facts(device, MARKDOWN),
         "documents": device_tables.documents(device, MARKDOWN),
         "identifications": device_tables.identifications(scope, MARKDOWN),
         "bases": device_tables.bases(device, MARKDOWN),
-        "found": "" if device.found is None else device_tables.found(device.found, MARKDOWN),
+        "found": device_tables.found(device.found, MARKDOWN),
         "numberings": tuple(
             f"{cell(key.capitalize())}: {_NUMBERINGS.get(key, 'as the manual prints it')}."
             + (f" {_COMPUTED}" if key in computed else "")

@@ -82,7 +82,7 @@ def _group_view(group: Group, points: list[Point], rows: _Rows) -> dict[str, obj
 
 
 class _Cells(NamedTuple):
-    """The cells that points with the same shape and terms share; `names` are short lists of named numbers."""
+    """The cells that points with the same shape, terms and limits share; `names` are short lists of named numbers."""
 
     space: str
     type: str
@@ -90,6 +90,8 @@ class _Cells(NamedTuple):
     unit: str
     scale: str
     names: str
+    range: str
+    raw_range: str
 
 
 class _Rows:
@@ -113,8 +115,7 @@ class _Rows:
             "errata": self._errata,
         }
         self._remarks = Remarks(Context(scope.device, names=scope.by_code), cell, further)
-        self._cells: dict[tuple[int, int], _Cells] = {}
-        self._limits: dict[tuple[int, int, int], tuple[str, str]] = {}
+        self._cells: dict[tuple[int, int, int], _Cells] = {}
 
     def table(self, points: Sequence[Point], lists: _Lists, *, with_space: bool) -> str:
         """Return the table of a group."""
@@ -124,13 +125,10 @@ class _Rows:
         return by_rows(heads, rows, always=_ALWAYS)
 
     def _row(self, point: Point, lists: _Lists, references: tuple[str, ...], with_space: bool) -> tuple[str, ...]:
-        key = id(point.shape), id(point.terms)
+        key = id(point.shape), id(point.terms), id(point.allowed)
         cells = self._cells.get(key)
         if cells is None:
             cells = self._cells[key] = self._shared_cells(point)
-        limits = self._limits.get((*key, id(point.allowed)))
-        if limits is None:
-            limits = self._limits[*key, id(point.allowed)] = _limits(point, self.scope.by_code)
         remarks = lists.cell_of(point), cells.names, self._remarks.of(point)
         name = narrow_target("point", point.item if point.variant else point.name)
         return (
@@ -142,9 +140,9 @@ class _Rows:
             numbers_text(point.place.references, references),
             cells.type,
             cells.access,
-            _with_default(point, limits[0]),
+            _with_default(point, cells.range),
             cells.unit,
-            limits[1],
+            cells.raw_range,
             cells.scale,
             LINE_BREAK.join(filter(None, remarks)),
             MARKDOWN.source(point.source, self.scope.several),
@@ -159,7 +157,8 @@ class _Rows:
         own = [special for special in point.shape.specials if not special.shared]
         names += [narrow(cell(wording.special_text(special, point.shape.width))) for special in own]
         unit, type_text = cell(point.unit.symbol), wording.type_text(point)
-        return _Cells(cell(point.space), type_text, point.access, unit, scale, LINE_BREAK.join(names))
+        limits = _limits(point, self.scope.by_code)
+        return _Cells(cell(point.space), type_text, point.access, unit, scale, LINE_BREAK.join(names), *limits)
 
     def _errata(self, point: Point) -> str:
         if self.has_more(point):

@@ -18,7 +18,6 @@ from fieldscribe.targets.runtime_calls import (
     Name,
     Node,
     PointName,
-    Scope,
 )
 from fieldscribe.text import camel, js_string, pascal
 
@@ -139,11 +138,6 @@ class Identifiers(ClassNames):
         self.device_class = f"{name}Device" if name in taken else name
         self.options = f"{self.device_class}Options"
         super().__init__(device, {self.device_class, self.options, *_CLASS_TAKEN})
-
-
-def scope_of(device: Device, names: Identifiers) -> Scope:
-    """Return the scope of a device in which nothing is used yet."""
-    return Scope.of(device, names, attribute)
 
 
 class Layout:

@@ -36,7 +36,6 @@ from fieldscribe.targets.typescript.syntax import (
     in_typescript,
     lazily,
     option,
-    scope_of,
     word_attribute,
 )
 from fieldscribe.text import camel, js_comment, js_string, upper
@@ -120,7 +119,7 @@ class Points:
     """Builds the texts of a device's constants, laid out once for all points with the same template key."""
 
     def __init__(self, device: Device, names: Identifiers) -> None:
-        self.scope: Scope = scope_of(device, names)
+        self.scope = Scope.of(device, names, attribute)
         self.layout = Layout(in_typescript(device).makers, camel)
         self._keys = self.scope.lowered.template_keys
         self._texts = TextTemplates()
@@ -241,7 +240,7 @@ def _command_type(made: Call) -> str:
 
 def device_context(device: Device, names: Identifiers) -> dict[str, object]:
     """Return the context of the main module: imports by module, facts of the class, and options."""
-    family, scope = in_typescript(device), scope_of(device, names)
+    family, scope = in_typescript(device), Scope.of(device, names, attribute)
     layout = Layout(family.makers, camel)
     facts = {name.lower(): node for name, node in class_facts(scope).items()}
     facts |= {"version": device.version, "digest": device.digest}
