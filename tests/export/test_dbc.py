@@ -342,12 +342,14 @@ def test_the_command(capfdbinary: pytest.CaptureFixture[bytes]) -> None:
     out = capfdbinary.readouterr().out
     assert out.decode("latin-1") == exported(DEVICE, 3)
     assert loaded(out.decode("latin-1")).get_message_by_frame_id(0x323)
-    for words in (
-        ["dbc", "hitachi_l200"],
-        ["dbc", "woodward_mpu2s", "--unit", "99"],
-        ["json", "woodward_mpu2s", "--unit", "1"],
+    all_of_it = b"is not for the form json\n  hint: leave it out: the model has all variants, no unit"
+    for words, message in (
+        (["dbc", "hitachi_l200"], b""),
+        (["dbc", "woodward_mpu2s", "--unit", "99"], b""),
+        (["json", "woodward_mpu2s", "--unit", "1"], b"--unit " + all_of_it),
+        (["json", "woodward_mpu2s", "--variant", "voltage=400V"], b"--variant " + all_of_it),
     ):
         assert main(["export", *words]) == 2
         told = capfdbinary.readouterr()
         assert told.out == b""
-        assert told.err.startswith(b"fieldscribe: ")
+        assert told.err.startswith(b"fieldscribe: " + message)

@@ -145,8 +145,8 @@ def test_a_template_that_loops_is_stopped(
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        ("", "this is no JSON: Expecting value, in line 1"),
-        ("[" * 100_000, "this is no JSON"),
+        ("", "config-a.json:1: this is no JSON: Expecting value\n  hint: templates are those of wb-mqtt-serial"),
+        ("[" * 100_000, "\n  hint: templates are those of wb-mqtt-serial"),
         ('{"device": 9' + "9" * 5_000 + "}", "this is no JSON"),
         ('{"device": {"scale": 1e999999999}}', "is no number"),
         ("[]", "there is no `device`"),

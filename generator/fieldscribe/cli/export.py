@@ -35,7 +35,9 @@ def run(arguments: Namespace) -> int:
     """Print the export; return the exit code."""
     for option, value in (("unit", arguments.unit), ("variant", arguments.variant or None)):
         if value is not None and arguments.form == _JSON:
-            raise StopError(f"--{option} is not for the form {arguments.form}")
+            raise StopError(
+                f"--{option} is not for the form {_JSON}", "leave it out: the model has all variants, no unit"
+            )
     device = open_device(arguments)
     try:
         if arguments.form == _JSON:

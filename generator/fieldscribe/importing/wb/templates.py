@@ -18,6 +18,7 @@ from fieldscribe.text import line
 PROTOCOLS = ("modbus", "modbus_io")
 """The protocols of readable templates; that of modules in slots comes second."""
 MOST_BYTES = 16 << 20
+_HINT = "templates are those of wb-mqtt-serial"
 _WALL_SECONDS = 60
 _LINT = re.compile(r'("(?:\\.|[^"\\])*")|//[^\n]*|/\*.*?\*/', re.DOTALL)
 
@@ -29,12 +30,14 @@ def read_template(path: Path) -> dict[str, Any]:
     try:
         read = json.loads(plain, parse_float=_number, parse_constant=_number)
     except json.JSONDecodeError as error:
-        where = 0 if path.suffix == ".jinja" else error.lineno
-        raise UnreadableError(f"this is no JSON: {error.msg}, in line {error.lineno} as rendered", where) from error
+        place, where = f", in line {error.lineno} as rendered", 0
+        if path.suffix != ".jinja":
+            place, where = "", error.lineno
+        raise UnreadableError(f"this is no JSON: {error.msg}{place}", where, _HINT) from error
     except (RecursionError, ValueError) as error:
-        raise UnreadableError(f"this is no JSON: {line(str(error))[:200]}") from error
+        raise UnreadableError(f"this is no JSON: {line(str(error))[:200]}", hint=_HINT) from error
     if not isinstance(read, dict) or not isinstance(read.get("device"), dict):
-        raise UnreadableError("this is no template: there is no `device`", hint="templates are those of wb-mqtt-serial")
+        raise UnreadableError("this is no template: there is no `device`", hint=_HINT)
     if (protocol := read["device"].get("protocol", PROTOCOLS[0])) not in PROTOCOLS:
         hint = f"templates with {' or '.join(PROTOCOLS)} are read"
         raise UnreadableError(f"the protocol is {line(str(protocol))[:40]}", hint=hint)
