@@ -189,11 +189,9 @@ class Layout:
         return text if abs(node) < _SAFE else f"{text}n"
 
     def key(self, key: Node) -> str:
-        """Return the key of a value in an object; no name of a description sets a prototype."""
+        """Return the key of a value in an object; no name begins with `_`, so none is that of the prototype."""
         if isinstance(key, str):
             text = self._name_of(key) if isinstance(key, PointName) else key
-            if text == "__proto__":
-                return '["__proto__"]: '
             return f"{text if _PLAIN_KEY.fullmatch(text) else js_string(text)}: "
         return f"{self.flat(key)}: "
 
