@@ -269,7 +269,8 @@ macro_rules! client {
             }
 
             write_methods! {
-                [], [], "Sets a point of the process data, which the next telegram carries.", put for Sent, Error;
+                [], [], "Sets a point of the process data, which the next telegram carries; \
+                [`Error::BeyondLink`] if the link has fewer words.", put for Sent, Error;
                 set set_with set_count set_count_with set_raw set_raw_with
             }
 
@@ -280,8 +281,8 @@ macro_rules! client {
             }
 
             bits_methods! {
-                [], [], "Sets a group of bits of the process data, which the next telegram carries.",
-                put_bits for Sent, Error;
+                [], [], "Sets a group of bits of the process data, which the next telegram carries; \
+                [`Error::BeyondLink`] if the link has fewer words.", put_bits for Sent, Error;
                 set_bits set_bits_with
             }
 
