@@ -110,17 +110,6 @@ def _parts(seconds: float, stride: float | None) -> Iterator[float]:
     yield seconds - passed
 
 
-def test_a_restart_begins_anew() -> None:
-    """What moves starts as before; a setting that nothing moves is what the memory kept."""
-    drive = running("hitachi_l200")
-    drive.values.update({"network_frequency_setpoint": 30.0, "run_command": "run", "load": 70, "F002": 1.0})
-    drive.clock.advance(5)
-    assert drive.values["output_frequency"] == 30
-    drive.restart()
-    drive.values["run_command"] = "stop"
-    assert [drive.values[name] for name in ("output_frequency", "load", "F002")] == [0, 40, 1]
-
-
 def test_a_day_passes_at_once() -> None:
     """Hours of standing time are one event, not millions of cycles."""
     drive = running("hitachi_l200")

@@ -7,7 +7,7 @@ from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError
 from fieldscribe.model import Point
 from fieldscribe.simulation.bench import layout_of
-from fieldscribe.simulation.memory import Memory, Values
+from fieldscribe.simulation.memory import Memory
 from support.described import DEVICES as MADE
 from support.places import ROOT
 from support.quick import full_but
@@ -38,27 +38,9 @@ def test_every_point_starts_in_range(folder: object) -> None:
         assert [point.name for point in named if memory.raw(point.name) not in known[point.name]] == []
 
 
-@pytest.mark.parametrize(
-    ("device", "point"),
-    [("hitachi_l200", "reserved_coil_0004"), ("woodward_mpu2s", "digital_inputs_1_to_4_fault_class")],
-)
-def test_bits_and_digits_are_off_at_the_start(device: str, point: str) -> None:
-    """Whatever the seed, if nothing in the description says more."""
-    layout = layout_of(device)
-    assert {Memory.started(layout, seed).raw(point) for seed in range(9)} == {0}
-
-
 def test_the_seed_chooses_what_no_manual_gives() -> None:
     layout = layout_of("eastron_sdm630")
     first, again, other = (Memory.started(layout, seed).areas for seed in (0, 0, 7))
     assert first == again != other
     first["input", 0][0] ^= 1
     assert again == Memory.started(layout).areas
-
-
-@pytest.mark.parametrize(
-    ("device", "point"), [("woodward_mpu2s", "fault_text_terminal_62"), ("fronius_datamanager", "options")]
-)
-def test_a_text_starts_with_the_name_of_its_point(device: str, point: str) -> None:
-    memory = Memory.started(layout_of(device))
-    assert Values(memory, lambda: None)[point] == point[:16]

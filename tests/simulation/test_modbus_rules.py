@@ -118,33 +118,6 @@ def test_a_broadcast_is_carried_out_and_not_answered() -> None:
     assert said(line, "03 1028 0001", unit=9) == ""
 
 
-def test_what_is_not_stored_is_lost_at_a_restart() -> None:
-    line = line_of("hitachi_l200")
-    device = device_of(line)
-    device.values["A020"] = 50
-    said(line, "06 1028 0258")
-    device.restart()
-    assert device.values["A020"] == 50
-    said(line, "06 1028 0258")
-    said(line, "06 0900 0000")
-    assert device.values["data_write"] != 0
-    device.clock.advance(1)
-    assert said(line, "01 0019 0001") == "010100"
-    device.restart()
-    assert device.values["A020"] == 60
-
-
-def test_conditions_refuse_writes_until_they_hold() -> None:
-    line = line_of("eastron_sdm630", unmet=["password_entered"])
-    device = device_of(line)
-    (point,) = (point for point in device.layout.points.values() if point.conditions)
-    address = device.layout.written[point.name].addresses[0]
-    request = f"10 {address:04x} 0002 04 {device.memory.raw(point.name):08x}"
-    assert said(line, request) == "9005"
-    device.conditions["password_entered"] = True
-    assert said(line, request) == f"10{address:04x}0002"
-
-
 def test_answers_take_their_time() -> None:
     line = line_of("hitachi_l200")
     device_of(line).values["C078"] = 250

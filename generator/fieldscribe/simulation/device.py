@@ -10,7 +10,7 @@ from typing import Protocol
 
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError
-from fieldscribe.arithmetic.words import raw_of, split, with_fixed
+from fieldscribe.arithmetic.words import insert, raw_of, split, with_fixed
 from fieldscribe.model import Command, Point, Source
 from fieldscribe.simulation.layout import Area, Cells, Layout, joined_cells
 from fieldscribe.simulation.memory import Memory, Plant, Values
@@ -274,7 +274,10 @@ class SimulatedDevice:
             raise Refusal("together", f"{label(point)} is written together with {left[0]}", point)
         held = [cells[address] for address in place.addresses]
         words: Sequence[int] = held if place.size == 1 else split(joined_cells(held, place.size), point.words)
-        return _on_a_step(point, raw_of(point, words))
+        raw = raw_of(point, words)
+        if point.fixed is not None and point.bits is not None and insert(point, words[0], raw) != words[0]:
+            raise Refusal("out_of_range", f"the bits beside {label(point)} are not those that are fixed", point)
+        return _on_a_step(point, raw)
 
     def _check(self, point: Point, raw: int, numbers: Mapping[str, int]) -> None:
         """Raise Refusal if a point must not take a raw number now; `numbers` are written with it, by name."""
