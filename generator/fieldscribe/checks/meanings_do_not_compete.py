@@ -70,7 +70,7 @@ def _needless(analysis: Analysis, facts: PointFacts, *, writable: bool) -> None:
     if facts.get("fixed") is not None and not writable:
         message = f"`fixed` says what is written, and `{facts.name}` is only read"
         analysis.report.error("two-meanings", message, facts.span("fixed"), "leave it out, or correct `access`")
-    if "most" in facts.node and not is_counted(facts):
+    if "most" in facts.node and not is_counted(facts) and not facts.node.broken:  # `indices` may be misspelt
         message = f"`most` is for elements that the device counts, and `{facts.name}` has none"
         hint = "leave it out, or let the device count: `indices: 1..phases`, or `indices: to end` in a block"
         analysis.report.error("two-meanings", message, facts.span("most"), hint)

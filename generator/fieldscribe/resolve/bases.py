@@ -107,7 +107,7 @@ def _base_of(scope: Scope, group: Map) -> Base | None:
     if formula is not None and block is None:
         return _by_formula(scope, group, str(formula))
     number, found = integer(block, group.span("block"), scope.report), scope.found
-    if number is None or (found is None and _is_stated(scope, "found")):
+    if number is None or (found is None and is_stated(scope, "found")):
         raise FactError  # it has a finding
     if found is None:
         hint = "declare how the blocks are found: `found` at the head of device.yaml"
@@ -122,7 +122,7 @@ def _base_of(scope: Scope, group: Map) -> Base | None:
     return start if formula is None else _in_block(scope, group, str(formula), start)
 
 
-def _is_stated(scope: Scope, key: str) -> bool:
+def is_stated(scope: Scope, key: str) -> bool:
     """Return True if the head has the key, also with a value that was dropped as wrong."""
     return key in scope.header or key in scope.header.broken
 

@@ -10,6 +10,7 @@ from fieldscribe.families import families
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import integer_in
 from fieldscribe.model import Bus, Frame, Named, Point
+from fieldscribe.resolve.bases import is_stated
 from fieldscribe.resolve.bus import reader_of
 from fieldscribe.resolve.errata import PrintedFact
 from fieldscribe.resolve.scope import Scope, source_of, titles
@@ -112,10 +113,13 @@ def _meaning_of(scope: Scope, node: Map, symbols: SymbolTable, points: Mapping[s
     """Return the raw numbers that a frame carries according to `says`, by item."""
     held: dict[str, int | Fraction] = {}
     settings: Map | None = node.get("with")
-    if settings is not None and (bases := _bases(scope) & settings.keys()):
+    if settings is not None:
         settings = settings.copied()
-        for name in bases:
+        for name in _bases(scope) & settings.keys():
             del settings[name]
+        if scope.found is None and is_stated(scope, "found"):  # it has a finding
+            for name in [word for word in settings if symbols.find(word.removesuffix(RAW)) is None]:
+                del settings[name]
     for point, raw_number in StatedValues(scope, settings).numbers(symbols, points) if settings is not None else ():
         held[point.item] = held[point.name] = setting_of(point, raw_number)
     says: Map | None = node.get("says")
