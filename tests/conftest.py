@@ -75,11 +75,11 @@ def rust_libraries(tmp_path_factory: pytest.TempPathFactory, pytestconfig: pytes
 def loads_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """So many commands ask for so few devices; how these are read and compiled is tried elsewhere."""
     from fieldscribe import pipeline
-    from fieldscribe.cli import search
+    from fieldscribe.cli import listing
     from support.loaded_once import load_analysis, load_device
 
     monkeypatch.setattr(pipeline, "load_device", load_device)
-    monkeypatch.setattr(search, "load_analysis", load_analysis)
+    monkeypatch.setattr(listing, "load_analysis", load_analysis)
 
 
 @pytest.fixture

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
-from functools import lru_cache, partial
+from functools import lru_cache
 from operator import itemgetter
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -39,7 +39,7 @@ class Text(NamedTuple):
 
     kind: str
     text: str
-    place: Callable[[], Span]
+    place: Span
     number: int | None = None
 
 
@@ -81,10 +81,10 @@ def _point(device: str, scope: Scope, resolved: ResolvedPoint) -> Entry:
         ("old name", "was", point.was),
         ("section", "section", [point.source.section]),
     ]
-    texts = [Text(kind, text, partial(draft.span, key)) for kind, key, known in of_keys for text in known if text]
-    texts.append(Text("group", point.group, draft.span))
+    texts = [Text(kind, text, draft.span(key)) for kind, key, known in of_keys for text in known if text]
+    texts.append(Text("group", point.group, draft.span()))
     for special in point.specials:
-        texts += [Text("special code", text, draft.span) for text in (special.name, *_distinct(special.title))]
+        texts += [Text("special code", text, draft.span()) for text in (special.name, *_distinct(special.title))]
     texts += _enum("enum", point.enum.entries if point.enum else (), _enum_map(scope, draft), draft)
     if point.digits is not None:
         texts += _enum("digit", point.digits.enum.entries, None, draft)
@@ -104,7 +104,7 @@ def _enum(kind: str, entries: Iterable[EnumEntry], listed: Map | None, draft: Po
     keys = {integer_in(key): key for key in listed or ()}
     for entry in entries:
         key = keys.get(entry.raw)
-        place = draft.span if listed is None or key is None else partial(listed.key_span, key)
+        place = draft.span() if listed is None or key is None else listed.key_span(key)
         for text in dict.fromkeys((entry.name, *entry.title.values(), entry.quantity or "")):
             if text:
                 yield Text(kind, text, place, entry.raw)
@@ -117,12 +117,12 @@ def _enum_map(scope: Scope, draft: PointFacts) -> Map | None:
     return node if isinstance(node, Map) else None
 
 
-def _place_of_flag(flags: object, name: str, draft: PointFacts) -> Callable[[], Span]:
+def _place_of_flag(flags: object, name: str, draft: PointFacts) -> Span:
     if isinstance(flags, Map):
         for key, value in flags.items():
             if value == name or (isinstance(value, Map) and value.get("name") == name):
-                return partial(flags.key_span, key)
-    return draft.span
+                return flags.key_span(key)
+    return draft.span()
 
 
 def _named(device: str, kind: str, node: Map) -> Entry:
@@ -130,10 +130,10 @@ def _named(device: str, kind: str, node: Map) -> Entry:
     name, titles = str(node["name"]), node.get("title", {})
     named = [str(text) for text in titles.values()] if isinstance(titles, Map) else []
     heading = line(f"{kind} {name}: {' / '.join(named)}".rstrip(": "))
-    texts = [Text("name", name, partial(node.span, "name"))]
-    texts += [Text("title", text, partial(node.span, "title")) for text in named]
+    texts = [Text("name", name, node.span("name"))]
+    texts += [Text("title", text, node.span("title")) for text in named]
     if node.get("section"):
-        texts.append(Text("section", str(node["section"]), partial(node.span, "section")))
+        texts.append(Text("section", str(node["section"]), node.span("section")))
     return Entry(device, kind, name, None, heading, texts)
 
 
@@ -145,9 +145,9 @@ def _codes(device: str, subject: Analysis) -> Iterator[Entry]:
         keys = {integer_in(key): key for key in listed or ()}
         for code in subject.bus.codes(codes.section):
             heading = line(f"{codes.kind} {keys.get(code.number, code.number)} {code.name}: {title_text(code.title)}")
-            place = subject.scope.header.span
+            place = subject.scope.header.span()
             if isinstance(listed, Map):
-                place = partial(listed.key_span, keys[code.number])
+                place = listed.key_span(keys[code.number])
             texts = [Text("name", code.name, place)]
             texts += [Text("title", text, place) for text in _distinct(code.title)]
             texts.append(Text("number", str(code.number), place, code.number))

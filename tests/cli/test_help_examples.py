@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import pytest
-from fieldscribe.cli import COMMANDS, command_module, live_options, scan
+from fieldscribe.cli import COMMANDS, command_named, discovery, live_options
 from fieldscribe.live.lines import LineAddress, read_line
 from fieldscribe.live.snapshots import Held, defaults
 from fieldscribe.simulation import simulated
@@ -311,12 +311,12 @@ CLAIMS = {
 def test_every_command_has_examples_and_every_example_a_claim() -> None:
     """A new example needs a line in the table above."""
     printed = {
-        name: {_called(example.printed, name) for example in examples_of(command_module(name).EXAMPLE)}
+        name: {_called(example.printed, name) for example in examples_of(command_named(name).example)}
         for name in COMMANDS
     }
     assert printed == {name: set(claims) for name, claims in CLAIMS.items()}
     for name in COMMANDS:
-        assert command_module(name).EXAMPLE.count(f"fieldscribe {name}") >= len(printed[name])
+        assert command_named(name).example.count(f"fieldscribe {name}") >= len(printed[name])
 
 
 def _called(printed: str, command: str) -> str:
@@ -334,7 +334,7 @@ def lines(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     project = '[lines]\nbench = "tcp://192.168.0.20"\n[stations.pump]\ndescription = "hitachi_l200"\nline = "bench"\n'
     (tmp_path / "fieldscribe.toml").write_text(project, "utf-8")
     monkeypatch.setattr(time, "sleep", _interrupted)
-    monkeypatch.setattr(scan, "_TIMEOUT", 0.02)
+    monkeypatch.setattr(discovery, "_TIMEOUT", 0.02)
     with (
         simulated("hitachi_l200", values=values) as on_tcp,
         simulated("hitachi_l200", values=values, unit=3, on="serial") as on_serial,
@@ -404,7 +404,7 @@ def test_examples_do_what_they_show(
     if command in ON_LINES:
         request.getfixturevalue("lines")
     capsys.readouterr()
-    for example in examples_of(command_module(command).EXAMPLE):
+    for example in examples_of(command_named(command).example):
         claim = CLAIMS[command][_called(example.printed, command)]
         result = ran(example, folder, capsys, monkeypatch)
         assert result.code == claim.code, (example.printed, result)

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 from fieldscribe import __version__
-from fieldscribe.cli import COMMANDS, command_module, main
+from fieldscribe.cli import COMMANDS, command_named, main
 from fieldscribe.cli.common import print_json
 from fieldscribe.live.snapshots import Held, Snapshot
 from fieldscribe.resources import descriptions_dir
@@ -94,7 +94,7 @@ def devices(small: Path) -> None:
 def test_exit_codes_and_streams(command: str, run: Callable[..., Output], devices: None) -> None:
     """0 has a result on stdout, 2 only a message on stderr. JSON is whole, and changes no exit code."""
     parser = ArgumentParser()
-    command_module(command).add_arguments(parser)
+    command_named(command).add_arguments(parser)
     formats = next((action.choices for action in parser._actions if action.dest == "format"), None) or ()
     for code, words in ENDS[command].items():
         told = run(command, *words)
@@ -214,7 +214,7 @@ def test_no_traceback(
     def fail(_: object) -> int:
         raise error
 
-    monkeypatch.setattr("fieldscribe.cli.check.run", fail)
+    monkeypatch.setattr("fieldscribe.cli.check.run_check", fail)
     monkeypatch.delenv("FIELDSCRIBE_DEBUG", raising=False)
     told = run("check")
     assert told.code == code

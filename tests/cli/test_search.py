@@ -67,7 +67,7 @@ def entries() -> list[Entry]:
 def test_the_first_hit(words: str, first: str, expected: str, entries: list[Entry]) -> None:
     hit = search(entries, words.split())[0]
     assert f"{hit.entry.device} {hit.entry.heading}".startswith(f"{first}:")
-    spans = [(text, text.place()) for text in hit.texts]
+    spans = [(text, text.place) for text in hit.texts]
     found = [f"{text.kind} {text.text} {span.file.rpartition('/')[2]}:{span.line}" for text, span in spans]
     assert any(text.startswith(expected) for text in found), found
     for text, span in spans:

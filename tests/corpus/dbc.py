@@ -13,7 +13,7 @@ from typing import Any
 
 from cantools.database.can import Node
 from cantools.database.errors import DecodeError
-from fieldscribe.cli.import_kinds import database_of, text_of
+from fieldscribe.cli.importing import database_of, text_of
 from fieldscribe.diagnostics import Report
 from fieldscribe.families.can.dbc import export
 from fieldscribe.importing import compilable

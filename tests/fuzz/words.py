@@ -16,7 +16,7 @@ from contextlib import chdir, redirect_stderr, redirect_stdout
 from pathlib import Path
 from random import Random
 
-from fieldscribe.cli import COMMANDS, command_module, main
+from fieldscribe.cli import COMMANDS, command_named, main
 
 from fuzz.languages import Result
 
@@ -40,7 +40,7 @@ ENDLESS = ("watch", "monitor", "simulate")
 def options(command: str) -> list[str]:
     """The options of a command, as its parser has them."""
     parser = ArgumentParser(add_help=True)
-    command_module(command).add_arguments(parser)
+    command_named(command).add_arguments(parser)
     return sorted(name for action in parser._actions for name in action.option_strings)
 
 

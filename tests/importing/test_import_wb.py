@@ -13,7 +13,8 @@ import corpus.__main__ as corpus
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.importing.wb import rendering
-from fieldscribe.importing.wb.conditions import Condition, condition_of
+from fieldscribe.importing.wb.conditions import Condition, Parameters, condition_of
+from fieldscribe.importing.wb.templates import Texts
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
@@ -53,8 +54,11 @@ def imported(template: Any, folder: Path, capsys: pytest.CaptureFixture[str], na
     return draft or message
 
 
-class Known:
+class Known(Parameters):
     """Parameters of which `gone` is none, and `far` exists under a condition."""
+
+    def __init__(self) -> None:
+        super().__init__([], Texts(None))
 
     def compared(self, name: str, sign: str, number: int) -> Condition:
         return sign == "!=" if name == "gone" else f"{name} {sign} {number}"

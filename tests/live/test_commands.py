@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from fieldscribe.cli import live_options, monitor
+from fieldscribe.cli import live_options, points
 from fieldscribe.live.connection import device_class
 from fieldscribe.live.writing import Write
 from fieldscribe.simulation import Simulated, simulated
@@ -132,9 +132,14 @@ def answers(*texts: str) -> io.StringIO:
         ),
         ("listen hitachi_l200 --for nan", 2, "^$", "`nan` is no number of seconds above 0"),
         ("listen hitachi_l200 --for -1", 2, "^$", "`-1` is no number of seconds above 0"),
-        ("read hitachi_l200 A020 --with slot=3", 2, "^$", "no address .* depends on `slot=3`\n  hint: leave it out"),
-        ("scan hitachi_l200 --with slot=3", 2, "^$", "no address of hitachi_l200 depends on `slot=3`"),
-        ("identify fronius_datamanager --with slot=3", 2, "^$", "no address .* depends on `slot=3`"),
+        (
+            "read hitachi_l200 A020 --with slot=3",
+            2,
+            "^$",
+            "nothing .* given or found as `slot=3`\n  hint: leave it out",
+        ),
+        ("scan hitachi_l200 --with slot=3", 2, "^$", "hitachi_l200 has nothing that is given or found as `slot=3`"),
+        ("identify fronius_datamanager --with slot=3", 2, "^$", "has nothing that is given or found as `slot=3`"),
         ("write hitachi_l200 A020=1e400 --yes", 1, "^$", r"^.{,200} is outside 0..400 Hz\n.*nearest allowed value"),
         ("write hitachi_l200 =5 --yes", 2, "^$", "no point is named\n  hint: give its code, name or address"),
         ("write hitachi_l200 A020= --yes", 2, "^$", "A020 base_frequency: the value is missing\n  hint: write POINT="),
@@ -445,8 +450,8 @@ def test_monitor_sends_as_few_requests_as_the_planner_needs(run: Run) -> None:
 
 
 def test_a_terminal_shows_a_table_in_its_place(drive: Simulated, on_line: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(monitor, "is_coloured", lambda _stream: True)
-    monkeypatch.setattr(monitor, "terminal_size", lambda: (40, 4))
+    monkeypatch.setattr(points, "is_coloured", lambda _stream: True)
+    monkeypatch.setattr(points, "terminal_size", lambda: (40, 4))
     monkeypatch.setattr("time.sleep", lambda _seconds: drive.values.update(base_frequency=41))
     done = on_line("monitor", "hitachi_l200", "A020", "A061", "A062", "--count", "2", "--every", "0")
     drive.values["base_frequency"] = 50

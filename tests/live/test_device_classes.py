@@ -16,6 +16,7 @@ import pytest
 from fieldscribe.live.connection import device_class
 from fieldscribe.model import Device
 from fieldscribe.resources import use_python_runtime
+from support.async_classes import async_device_class
 from support.described import SHIPPED, kitchen_sink, made, shipped
 from support.files import write_files
 from support.models import sample_device
@@ -40,13 +41,14 @@ def test_other_devices_are_those_of_their_packages(device: Device, tmp_path: Pat
 
 PACKAGE = """
 from pathlib import Path
-from fieldscribe.live.connection import device_class, points_class
+from fieldscribe.live.connection import device_class
 from fieldscribe.pipeline import load_device
 from fieldscribe.diagnostics import Report
+from support.async_classes import async_device_class
 
 _device = load_device(Path({path!r}), Report())
-_points = points_class(_device)
-Live, LiveAsync = device_class(_device, points=_points), device_class(_device, awaiting=True, points=_points)
+Live = device_class(_device)
+LiveAsync = async_device_class(_device, Live)
 for _each in (Live, LiveAsync):
     _each.__init__.__annotations__.update(dict.fromkeys(_device.variants))
 __version__, __digest__ = _device.version, _device.digest
@@ -70,7 +72,7 @@ def test_every_vector_passes(name: str, tmp_path: Path) -> None:
 
 def same_as_generated(device: Device, folder: Path) -> None:
     """Compare both classes of a device with those of its package."""
-    live = [facts_of(device_class(device)), facts_of(device_class(device, awaiting=True))]
+    live = [facts_of(device_class(device)), facts_of(async_device_class(device))]
     with contextmanager(imported)(folder, device.id) as package:
         kinds = [kind for kind in vars(package).values() if isinstance(kind, type) and hasattr(kind, "POINTS")]
         for found, expected in zip(live, map(facts_of, kinds), strict=True):

@@ -139,19 +139,22 @@ def test_the_journal_of_a_killed_restore_is_right(number: int, *, after: bool, d
     line = ("--line", f"tcp://127.0.0.1:{drive.port}", "--timeout", "0.5")
     ended = subprocess.run([sys.executable, "-c", DYING, str(number), str(int(after)), *line], check=False)
     assert ended.returncode == 9
-    assert interrupted(Path("a.json.journal")) == (
-        json.loads(Path("a.json.journal").read_text("utf-8").splitlines()[0])["started"],
-        f"hitachi_l200, unit 1, tcp://127.0.0.1:{drive.port}",
-        FIRST[:number],
-        FIRST[number : number + 1],
-        FIRST[number + 1 :],
-    )
+    started = json.loads(Path("a.json.journal").read_text("utf-8").splitlines()[0])["started"]
+    parts = {
+        "written": FIRST[:number],
+        "perhaps written": FIRST[number : number + 1],
+        "not written": FIRST[number + 1 :],
+    }
+    assert interrupted(Path("a.json.journal")) == [
+        f"the restore of {started} to hitachi_l200, unit 1, tcp://127.0.0.1:{drive.port} did not end",
+        *(f"{what}: {', '.join(names)}" for what, names in parts.items() if names),
+    ]
     names = [label.split()[1] for label in FIRST]
     written = [name for name in names if drive.values[name] == BEFORE[name]]
     assert written == names[: number + after]
     again = on_line("restore", "a.json", "--yes")
     assert f"perhaps written: {FIRST[number]}\n" in again.err
-    assert (again.code, interrupted(Path("a.json.journal"))) == (0, None)
+    assert (again.code, interrupted(Path("a.json.journal"))) == (0, [])
     assert all(drive.values[name] == BEFORE[name] for name in names)
 
 
@@ -187,22 +190,22 @@ def test_a_journal_that_ends_anywhere_tells_of_what_is_whole(tmp_path: Path) -> 
     path = tmp_path / "journal"
     journal = Journal(path, ["a", "b", "c"], {"device": "x"})
     for number in range(3):
-        journal.begin(number, raw=1)
-        (journal.refused(number, "no") if number == 1 else journal.done(number))
+        journal.note(begin=number, raw=1)
+        journal.note(**{"refused": 1, "why": "no"} if number == 1 else {"done": number})
     journal.close()
     whole = path.read_bytes()
     told = []
     for size in range(len(whole) + 1):
         path.write_bytes(whole[:size])
-        if (found := interrupted(path)) and found[2:] not in told:
-            told.append(found[2:])
+        if (found := interrupted(path)) and found[1:] not in told:
+            told.append(found[1:])
     assert told == [
-        ([], [], ["a", "b", "c"]),
-        ([], ["a"], ["b", "c"]),
-        (["a"], [], ["b", "c"]),
-        (["a"], ["b"], ["c"]),
-        (["a"], ["c"], ["b"]),
-        (["a", "c"], [], ["b"]),
+        ["not written: a, b, c"],
+        ["perhaps written: a", "not written: b, c"],
+        ["written: a", "not written: b, c"],
+        ["written: a", "perhaps written: b", "not written: c"],
+        ["written: a", "perhaps written: c", "not written: b"],
+        ["written: a, c", "not written: b"],
     ]
 
 

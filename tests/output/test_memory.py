@@ -194,7 +194,7 @@ def test_a_cache_belongs_to_its_user_alone(
     user = os.getuid() + owner
     monkeypatch.setattr(os, "getuid", lambda: user)
     monkeypatch.setattr(os, "access", lambda *_: writable)
-    assert cache_dir("runs") == (place if fits else None)
+    assert cache_dir() == (place if fits else None)
 
 
 def test_a_relative_place_of_caches_is_none(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -254,7 +254,7 @@ def test_the_place_of_caches_is_that_of_the_specification(
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("HOME", str(tmp_path / "home"))
     monkeypatch.setenv("XDG_CACHE_HOME", variable.replace("/ABSOLUTE", str(tmp_path / "absolute")))
-    place = cache_dir("runs")
+    place = cache_dir()
     assert place == tmp_path / found / "fieldscribe/runs"
     assert place.stat().st_mode & 0o777 == 0o700
 
@@ -266,5 +266,5 @@ def test_without_a_home_nothing_is_kept(tmp_path: Path, monkeypatch: pytest.Monk
     monkeypatch.chdir(tmp_path)
     monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
     monkeypatch.setattr(os.path, "expanduser", lambda path: path)
-    assert cache_dir("runs") is None
+    assert cache_dir() is None
     assert list(tmp_path.iterdir()) == []

@@ -9,8 +9,7 @@ from pathlib import Path
 
 import pytest
 from fieldscribe.output.files import Manifests, Spool, contents_of
-from fieldscribe.output.plan import Plan, changed_since, plan_of
-from fieldscribe.output.writing import carry_out
+from fieldscribe.output.writing import Plan, carry_out, changed_since, plan_of
 from fieldscribe.safe_files import state_of
 from support.strange_files import KINDS, put
 

@@ -244,10 +244,10 @@ def test_two_runs_with_different_input_leave_no_mixture(folder: Path, monkeypatc
 def test_check_calls_no_mixture_current(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What was current when it was read, but was written since, is not current."""
     from fieldscribe.cli import main
-    from fieldscribe.output import generation, plan
+    from fieldscribe.output import generation, writing
 
     assert main(["generate", "1.0.0", "--out", "made"]) == 0
-    changed_since, done = plan.changed_since, []
+    changed_since, done = writing.changed_since, []
 
     def meddled(*arguments: Any) -> Any:
         done.append(main(["generate", "2.0.0", "--out", "made", "--target", "docs"]))

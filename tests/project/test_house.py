@@ -62,7 +62,7 @@ ROOMS = (
 
 NAMES_A_FAMILY = {
     "importing.wb.templates": "the protocols of a gateway",
-    "cli.import_kinds": "CAN databases are of one",
+    "cli.importing": "CAN databases are of one",
     "importing.dbc": "CAN databases are of one",
     "listening.captures": "captures of CAN tools are of one",
     "diagnostics": "a library of Python is called as one",

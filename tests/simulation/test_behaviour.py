@@ -6,14 +6,13 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 import pytest
-from fieldscribe.simulation.behaviour import Behaviour
 from fieldscribe.simulation.bench import layout_of, rules_of
 from fieldscribe.simulation.device import Clock, SimulatedDevice
 
 
 def running(name: str) -> SimulatedDevice:
     """A device with its behaviour, whose time stands but for `advance`."""
-    return SimulatedDevice(layout_of(name), clock=Clock(0), behaviour=Behaviour(rules_of(name)))
+    return SimulatedDevice(layout_of(name), clock=Clock(0), rules=rules_of(name))
 
 
 Step = tuple[dict[str, object], float, dict[str, object]]

@@ -10,7 +10,6 @@ import pytest
 from fieldscribe.arithmetic.words import words_in
 from fieldscribe.families.uss.simulation import core_of
 from fieldscribe.families.uss.telegrams import Link, Request, broadcast, build, parse, telegram
-from fieldscribe.simulation.behaviour import Behaviour
 from fieldscribe.simulation.bench import layout_of, rules_of
 from fieldscribe.simulation.device import Clock, SimulatedDevice
 from fieldscribe.simulation.line import Fault, Line, Stream
@@ -79,7 +78,7 @@ def answered(device: SimulatedDevice, words: tuple[int, ...]) -> tuple[int, ...]
 
 def test_telegrams_of_the_manual() -> None:
     """Each printed exchange: the device holds what it is about, and answers as printed."""
-    device = inverter(behaviour=Behaviour(rules_of("siemens_mm4")))
+    device = inverter(rules=rules_of("siemens_mm4"))
     model = device.device
     frames = {frame.name: frame for frame in model.frames}
     exchanges = [(frames[reply.answers], reply) for reply in model.frames if reply.answers]
@@ -103,7 +102,7 @@ def test_telegrams_of_the_manual() -> None:
 @pytest.mark.parametrize("to_all", [False, True])
 def test_a_master_that_falls_silent(to_all: bool) -> None:
     """The drive trips when the off time has run out behind the last telegram that it takes, and never before one."""
-    device = inverter(behaviour=Behaviour(rules_of("siemens_mm4")))
+    device = inverter(rules=rules_of("siemens_mm4"))
     core, quiet = core_of([device]), (0x047E, 0)
     device.values["uss_telegram_off_time_index_0"] = 500
 
@@ -189,7 +188,7 @@ def device_answer(device: SimulatedDevice) -> tuple[int, int]:
 
 def test_process_data_and_broadcast(package: Any) -> None:
     """A control word counts with its bit 10 alone; a broadcast changes what its masks select, on every unit."""
-    units = [inverter(unit, behaviour=Behaviour(rules_of("siemens_mm4")), strict=True) for unit in (1, 2)]
+    units = [inverter(unit, rules=rules_of("siemens_mm4"), strict=True) for unit in (1, 2)]
     core = core_of(units)
     for device in units:
         core.answer(telegram(device.unit, (0, 0, 0, 0x047F, 0x4000)))
@@ -207,7 +206,7 @@ def test_process_data_and_broadcast(package: Any) -> None:
         assert (status, answer is not None and answer.data) == ("ok", b"")
         assert [(d.memory.raw("control_word"), d.memory.raw("main_setpoint")) for d in units] == [held, held]
     assert {complaint.rule for complaint in units[1].complaints} == {"constant bits"}
-    drive = opened(package, inverter(behaviour=Behaviour(rules_of("siemens_mm4"))))
+    drive = opened(package, inverter(rules=rules_of("siemens_mm4")))
     assert drive.status_word.read() & 1
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from fieldscribe.diagnostics import Diagnostic, Report, Span
 from fieldscribe.pipeline import find_devices, load_device
-from fieldscribe.simulation.behaviour_file import find_behaviour, read_behaviour
+from fieldscribe.simulation.behaviour_file import FILE, read_behaviour
 
 SIDECAR = "expected.txt"
 """Holds the expectation of a folder: its files may be empty, missing or no text at all."""
@@ -21,9 +21,8 @@ def findings_of(case: Path) -> tuple[Diagnostic, ...]:
     for device_file in devices:
         device = load_device(device_file, report)
         assert (device is None) == report.has_errors, "a device without errors, and none with errors"
-        behaviour = find_behaviour(device_file) if device is not None and case.is_dir() else None
-        if device is not None and behaviour is not None:
-            assert (read_behaviour(behaviour, device, report) is None) == report.has_errors
+        if device is not None and case.is_dir() and (device_file.parent / FILE).exists():
+            assert (read_behaviour(device_file, device, report) is None) == report.has_errors
     return report.findings
 
 

@@ -22,10 +22,6 @@ _SCHEMA_LINE = re.compile(r"#[ \t]*yaml-language-server:[ \t]*\$schema=((?:\.\./
 _SUFFIX = ".fieldscribe-new"
 
 
-class MovedError(Exception):
-    """The file was saved while it was being formatted."""
-
-
 def formatted(name: str, data: bytes, report: Report) -> bytes | None:
     """Return the canonical form of a file; None, with a finding, if it cannot be read or has no such form."""
     source = decoded(name, data, report)
@@ -77,7 +73,7 @@ class Formatting:
         self._seen: set[str] = set()
 
     def file(self, path: Path) -> None:
-        """Format a file, and update the schema that its first line names. Raises OSError and MovedError."""
+        """Format a file, and update the schema that its first line names. Raises OSError and UnclearError."""
         real = os.path.realpath(path)
         if real in self._seen:
             return
@@ -108,7 +104,7 @@ class Formatting:
             place = Path(os.path.realpath(path))  # a link stays a link
             status = os.stat(place)
             if state_of(status) != state:
-                raise MovedError
+                raise UnclearError(f"`{path}` was saved while it was formatted: it stays as it is", "run again")
             replace(place, (new,), f".{place.name}{_SUFFIX}", mode=stat.S_IMODE(status.st_mode))
         self.changed.append(path)
 
@@ -132,7 +128,7 @@ def rewrite(texts: Mapping[str, tuple[str, str]]) -> None:
             place = Path(name).resolve()
             mark = _MARK if before[place].startswith(_MARK) else b""
             mode = stat.S_IMODE(place.stat().st_mode)
-            replace(place, (mark, text.encode()), f".{place.name}.fieldscribe-new", mode=mode)
+            replace(place, (mark, text.encode()), f".{place.name}{_SUFFIX}", mode=mode)
             replaced.append(place)
     except OSError as error:
         for place in replaced:

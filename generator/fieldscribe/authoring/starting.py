@@ -7,7 +7,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
-from fieldscribe.diagnostics import Diagnostic, Report
+from fieldscribe.diagnostics import Report, UnclearError
 from fieldscribe.families import FAMILIES, family
 from fieldscribe.language.key_tables import SCHEMA_ID, schema_text
 from fieldscribe.language.keys import keys_of
@@ -58,14 +58,6 @@ QUESTIONS = (
 )
 
 
-class NotStartedError(Exception):
-    """The description would not compile, with this finding; nothing was written."""
-
-    def __init__(self, finding: Diagnostic) -> None:
-        super().__init__(finding.message)
-        self.finding = finding
-
-
 def startable() -> dict[str, str]:
     """Return the families, each with its use."""
     parts = {name: family(name).part("description") for name in FAMILIES}
@@ -98,7 +90,7 @@ def _shape_of(name: str) -> ValueShape:
 def start(folder: Path, answers: Mapping[str, str]) -> list[Path]:
     """Create the folder of the device, either completely or not at all; return its files.
 
-    Raises FileExistsError, another OSError, or NotStartedError.
+    Raises FileExistsError, another OSError, or UnclearError if the description would not compile.
     """
     if os.path.lexists(folder):
         raise FileExistsError(str(folder))
@@ -113,7 +105,8 @@ def start(folder: Path, answers: Mapping[str, str]) -> list[Path]:
             replace(made / SCHEMA_FILE, (schema_text().encode(),))
         report = Report()
         if load_analysis(made / DEVICE_FILE, report) is None:
-            raise NotStartedError(report.findings[0])
+            finding = report.findings[0]
+            raise UnclearError(f"{finding.message}; nothing was written", finding.hint or "")
         names = sorted(os.listdir(made))
         made.rename(folder)
     return [folder / name for name in names]

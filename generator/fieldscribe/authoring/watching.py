@@ -12,7 +12,7 @@ from time import monotonic
 
 from fieldscribe.diagnostics import Report
 from fieldscribe.output.generation import Generation
-from fieldscribe.output.writing import Result
+from fieldscribe.output.memory import Result
 from fieldscribe.pipeline import find_devices
 from fieldscribe.safe_files import State, state_at
 

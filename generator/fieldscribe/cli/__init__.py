@@ -1,11 +1,12 @@
 """The command line: the only room that prints, exits, or decides where files are written.
 
-To add a command, write one module in this folder and add one line to `COMMANDS`; `schema.py` is a short model. It has
+To add a command, write it in a module of this folder and add one line to `COMMANDS`; `explain.py` is a short model.
+The command `list` has in its module
 
-- `EXAMPLE`: the end of its `--help`: examples, and the meaning of its exit codes,
-- `add_arguments(parser)`: its arguments, with the shared ones of `common.py` (`add_device`, `add_paths`, `add_format`),
-- `run(arguments)`: does the work and returns `FINE`, `FINDINGS` or `USAGE`. Results go to stdout, messages to stderr.
-  To stop a command, raise `common.StopError`.
+- `LIST_EXAMPLE`: the end of its `--help`: examples, and the meaning of its exit codes,
+- `add_list_arguments(parser)`: its arguments, with the shared ones of `common.py` (`add_device`, `add_paths`, ...),
+- `run_list(arguments)`: does the work and returns `FINE`, `FINDINGS` or `USAGE`. Results go to stdout, messages to
+  stderr. To stop a command, raise `common.StopError`.
 
 A module is imported when its command is chosen, so it can import what it needs at its top. Tests: an entry in
 `tests/cli/test_help_examples.py` for each example, and in `tests/cli/test_reporting.py` if it has `--format`.
@@ -17,30 +18,13 @@ import gc
 import os
 import sys
 from argparse import ArgumentParser, Namespace
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from errno import ENAMETOOLONG
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, NoReturn, Protocol
+from typing import NamedTuple, NoReturn
 
 from fieldscribe import __version__
-from fieldscribe.cli.terminal import FINDINGS as FINDINGS
-from fieldscribe.cli.terminal import FINE as FINE
-from fieldscribe.cli.terminal import USAGE as USAGE
-from fieldscribe.cli.terminal import terminal_width
-
-if TYPE_CHECKING:
-
-    class Command(Protocol):
-        """The interface of a command's module."""
-
-        EXAMPLE: str
-
-        def add_arguments(self, parser: ArgumentParser) -> None:
-            """Add the command's arguments."""
-
-        def run(self, arguments: Namespace) -> int:
-            """Run the command and return the exit code."""
-
+from fieldscribe.cli.terminal import FINDINGS, USAGE, terminal_width
 
 COMMANDS = {
     "check": "validate descriptions; print everything that is wrong, and where",
@@ -73,10 +57,20 @@ COMMANDS = {
     "units": "list the units that descriptions can use without declaring them",
     "schema": "print the keys of descriptions as JSON Schema or as a page, or the JSON Schema of exported models",
 }
-"""All commands and what they do, in the order of `--help`. A module is imported when its command is chosen."""
+"""All commands and what they do, in the order of `--help`."""
 
-_MODULES = {"list": "listing"}
-"""Commands whose module has another name: a module `list` would hide the built-in type."""
+_MODULES = {
+    "authoring": ("init", "fmt"),
+    "conversion": ("decode", "encode"),
+    "deliveries": ("vendor", "docs"),
+    "discovery": ("scan", "identify"),
+    "export": ("export", "schema"),
+    "importing": ("import",),
+    "listing": ("list", "search", "units"),
+    "points": ("read", "write", "monitor"),
+    "snapshots": ("snapshot", "compare", "restore"),
+}
+"""The modules with commands of other names; each other command has a module of its name."""
 
 _DIGITS = frozenset(".0123456789")
 _INTERRUPTED, _PIPE_CLOSED = 130, 141
@@ -122,21 +116,29 @@ def main(argv: Sequence[str] | None = None) -> int:
     return code
 
 
-def command_module(name: str) -> Command:
-    """Return the module of a command."""
-    module: Any = import_module(f"fieldscribe.cli.{_MODULES.get(name, name)}")
-    command: Command = module
-    return command
+class Command(NamedTuple):
+    """A command: the end of its `--help`, and the functions that add its arguments and run it."""
+
+    example: str
+    add_arguments: Callable[[ArgumentParser], None]
+    run: Callable[[Namespace], int]
+
+
+def command_named(name: str) -> Command:
+    """Return a command; its module is imported."""
+    module = next((module for module, commands in _MODULES.items() if name in commands), name)
+    parts = vars(import_module(f"fieldscribe.cli.{module}"))
+    return Command(parts[f"{name.upper()}_EXAMPLE"], parts[f"add_{name}_arguments"], parts[f"run_{name}"])
 
 
 def _run(argv: list[str]) -> int:
     if not argv or argv[0] not in COMMANDS:
         return _overview(argv)
     from fieldscribe.cli.common import StopError, usage_error  # `--help` and `--version` start without these
-    from fieldscribe.diagnostics import UnclearError
+    from fieldscribe.diagnostics import RefusedError, UnclearError
 
-    command = command_module(argv[0])
-    parser = _parser(f"fieldscribe {argv[0]}", COMMANDS[argv[0]], command.EXAMPLE)
+    command = command_named(argv[0])
+    parser = _parser(f"fieldscribe {argv[0]}", COMMANDS[argv[0]], command.example)
     command.add_arguments(parser)
     # a value such as `-5Hz` is no option: none of ours starts with a digit
     words = [f" {word}" if word[:1] == "-" and word[1:2] in _DIGITS else word for word in argv[1:]]
@@ -152,8 +154,9 @@ def _run(argv: list[str]) -> int:
         return command.run(arguments)
     except StopError as stop:
         return stop.report()
-    except UnclearError as error:
-        return usage_error(error.message, error.hint)
+    except (UnclearError, RefusedError) as error:
+        usage_error(error.message, error.hint)
+        return FINDINGS if isinstance(error, RefusedError) and error.status != "missing" else USAGE
 
 
 def _unrecognised(unknown: list[str], parser: ArgumentParser) -> str:

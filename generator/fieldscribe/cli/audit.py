@@ -10,9 +10,8 @@ from fieldscribe.audit import Citations, Comparison, Editions, audit, audit_of
 from fieldscribe.audit.renumbering import LONGEST, hindrances, renumber, with_recorded
 from fieldscribe.audit.report import audit_lines, audit_page, comparison_lines
 from fieldscribe.authoring.formatting import rewrite
-from fieldscribe.cli import FINDINGS, FINE
 from fieldscribe.cli.common import StopError, add_device, load, print_json, some_path, usage_error
-from fieldscribe.cli.terminal import print_lines
+from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
 from fieldscribe.diagnostics import visible
 from fieldscribe.model import Document
 from fieldscribe.pipeline import load_analysis
@@ -20,7 +19,7 @@ from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.safe_files import read_regular
 from fieldscribe.text import counted
 
-EXAMPLE = """examples:
+AUDIT_EXAMPLE = """examples:
   fieldscribe audit hitachi_l200 --manual hitachi_l200_modbus.txt
   fieldscribe audit hitachi_l200 --manual new.txt --report html > audit.html
   fieldscribe audit hitachi_l200 --old hitachi_l200_modbus.txt --manual new.txt
@@ -49,7 +48,7 @@ class _Text(NamedTuple):
         return None if self.document.sha256 is None else self.sha256 == self.document.sha256
 
 
-def add_arguments(parser: ArgumentParser) -> None:
+def add_audit_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
     add = parser.add_argument
     add_device(parser, variants=False)
@@ -65,7 +64,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     add("--all", action="store_true", help="list also sections and rows that nothing cites")
 
 
-def run(arguments: Namespace) -> int:
+def run_audit(arguments: Namespace) -> int:
     """Audit, or compare two editions; return the exit code."""
     if not arguments.accept and (arguments.file is not None or arguments.edition is not None):
         raise StopError("--file and --edition are what --accept records", "give them with --accept")

@@ -11,22 +11,23 @@ from fieldscribe.cli.terminal import FINDINGS, FINE
 from fieldscribe.diagnostics import Report, as_data
 from fieldscribe.model import Device
 from fieldscribe.pipeline import find_devices, is_new, load_analysis
+from fieldscribe.simulation.behaviour_file import read_behaviour
 from fieldscribe.text import counted
 
-EXAMPLE = """examples:
+CHECK_EXAMPLE = """examples:
   fieldscribe check
   fieldscribe check descriptions/hitachi_l200 --format json
 
 ends with 1 when there is an error; warnings do not count"""
 
 
-def add_arguments(parser: ArgumentParser) -> None:
+def add_check_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
     add_paths(parser)
     add_format(parser)
 
 
-def run(arguments: Namespace) -> int:
+def run_check(arguments: Namespace) -> int:
     """Check descriptions and print the findings; return the exit code."""
     as_text = arguments.format == "text"
     report, checked = Report(), []
@@ -35,7 +36,7 @@ def run(arguments: Namespace) -> int:
         analysis = load_analysis(device_file, report)
         if analysis is not None and is_new(analysis.device, device_file, known, report):
             checked.append(_counts(analysis.device))
-            _check_behaviour(device_file, analysis.device, report)
+            read_behaviour(device_file, analysis.device, report)
             if as_text:
                 print(_line(checked[-1]), flush=True)
     if as_text:
@@ -43,15 +44,6 @@ def run(arguments: Namespace) -> int:
     else:
         print_json({"devices": checked, "findings": as_data(report.findings)})
     return FINDINGS if report.has_errors else FINE
-
-
-def _check_behaviour(device_file: Path, device: Device, report: Report) -> None:
-    """Check the behaviour beside a description, if there is one."""
-    from fieldscribe.simulation.behaviour_file import find_behaviour, read_behaviour
-
-    path = find_behaviour(device_file)
-    if path is not None:
-        read_behaviour(path, device, report)
 
 
 def _counts(device: Device) -> dict[str, Any]:

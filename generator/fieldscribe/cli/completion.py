@@ -6,12 +6,13 @@ from argparse import Action, ArgumentParser, Namespace
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from fieldscribe.cli import COMMANDS, FINE, command_module
+from fieldscribe import cli
 from fieldscribe.cli.common import default_folders, known_devices
+from fieldscribe.cli.terminal import FINE
 from fieldscribe.language.keys.forms import ID
 from fieldscribe.search import summary_of
 
-EXAMPLE = """examples:
+COMPLETION_EXAMPLE = """examples:
   fieldscribe completion bash > ~/.local/share/bash-completion/completions/fieldscribe
   fieldscribe completion zsh > ~/.zfunc/_fieldscribe
   fieldscribe completion fish > ~/.config/fish/completions/fieldscribe.fish
@@ -58,14 +59,14 @@ complete -c fieldscribe -f -a '(__fieldscribe_words)'
 """The script of each shell; it runs `fieldscribe completion words -- WORD...` for each tab."""
 
 
-def add_arguments(parser: ArgumentParser) -> None:
+def add_completion_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
     add = parser.add_argument
     add("shell", choices=(*SCRIPTS, "words"), metavar="SHELL", help="bash, zsh or fish (their scripts call `words`)")
     add("typed", nargs="*", default=[], metavar="WORD", help="with `words`: what is typed, the last word in part")
 
 
-def run(arguments: Namespace) -> int:
+def run_completion(arguments: Namespace) -> int:
     """Print the script of the shell, or the completions of typed words, and return the exit code."""
     if arguments.shell == "words":
         words = (word for word in completions(arguments.typed) if word.isprintable())
@@ -80,8 +81,8 @@ def completions(typed: Sequence[str]) -> list[str]:
     words = [word for place, word in enumerate(typed) if word != "=" or place + 1 == len(typed)]  # bash splits at `=`
     *before, word = [text.strip() for text in words] or [""]
     if not before:
-        return _starting_with(word, (*COMMANDS, "--help", "--version"))
-    return _CommandLine(before[0], before[1:]).completions(word) if before[0] in COMMANDS else []
+        return _starting_with(word, (*cli.COMMANDS, "--help", "--version"))
+    return _CommandLine(before[0], before[1:]).completions(word) if before[0] in cli.COMMANDS else []
 
 
 def _starting_with(word: str, known: Iterable[str]) -> list[str]:
@@ -93,7 +94,7 @@ class _CommandLine:
 
     def __init__(self, command: str, before: list[str]) -> None:
         parser = ArgumentParser(prog=command, add_help=True)
-        command_module(command).add_arguments(parser)
+        cli.command_named(command).add_arguments(parser)
         actions: list[Action] = parser._actions  # argparse offers no other way
         self._options = {name: action for action in actions for name in action.option_strings}
         self._positionals = [action for action in actions if not action.option_strings]

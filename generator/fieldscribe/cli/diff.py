@@ -14,7 +14,7 @@ from fieldscribe.differences.changes import CLASSES, Comparison, as_data, compar
 from fieldscribe.differences.rendering import as_markdown, as_text
 from fieldscribe.differences.sides import EXPORT_HINT, opened
 
-EXAMPLE = """examples:
+DIFF_EXAMPLE = """examples:
   fieldscribe diff HEAD~1:descriptions/hitachi_l200 descriptions/hitachi_l200
   fieldscribe diff v1.2.0:descriptions descriptions --format markdown > changes.md
   fieldscribe diff released.json hitachi_l200 --fail-on breaking       (released.json: of `export json`)
@@ -28,7 +28,7 @@ _LEAST = {"breaking": 2, "behaviour": 3, "any": len(CLASSES)}
 """How many of the classes count, the gravest first."""
 
 
-def add_arguments(parser: ArgumentParser) -> None:
+def add_diff_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of the command."""
     add = parser.add_argument
     what = "a device's id, a folder of one device or of several, a file, an exported model, or GIT-REVISION:PATH"
@@ -43,7 +43,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     add("--format", choices=("text", "json", "markdown"), default="text", help="how to report (default: text)")
 
 
-def run(arguments: Namespace) -> int:
+def run_diff(arguments: Namespace) -> int:
     """Compare and report; return the exit code."""
     report = Report()
     exported: list[str] = []

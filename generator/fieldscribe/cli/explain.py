@@ -3,12 +3,12 @@
 from argparse import ArgumentParser, Namespace
 from contextlib import suppress
 
-from fieldscribe.cli.common import StopError, add_device, add_format, add_repeated, open_device, print_json
-from fieldscribe.cli.frame_options import placed
+from fieldscribe.cli.common import StopError, add_device, add_format, add_repeated, print_json
+from fieldscribe.cli.frame_options import model_of
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines, print_rows
 from fieldscribe.conversation.explanation import Explanation, explain_other_items, explain_point
 from fieldscribe.conversation.lookup import Match, advice, find, prefixes
-from fieldscribe.conversation.selection import absence, base_options
+from fieldscribe.conversation.selection import absence
 from fieldscribe.families import family
 from fieldscribe.grouping import grouped
 from fieldscribe.language.units import unit_hint
@@ -22,7 +22,7 @@ Found = tuple[list[str], Explanation]
 
 _SHORTEST_FRAME = 4
 
-EXAMPLE = """examples:
+EXPLAIN_EXAMPLE = """examples:
   fieldscribe explain hitachi_l200 A020
   fieldscribe explain hitachi_l200 0x1028
   fieldscribe explain hitachi_l200 modicon:4137 --as-documented
@@ -36,7 +36,7 @@ EXAMPLE = """examples:
 ends with 2 when nothing has that code, name or address, with 1 when only other variants have it"""
 
 
-def add_arguments(parser: ArgumentParser) -> None:
+def add_explain_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
     add = parser.add_argument
     add_device(parser)
@@ -53,12 +53,9 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_format(parser)
 
 
-def run(arguments: Namespace) -> int:
+def run_explain(arguments: Namespace) -> int:
     """Print all explanations of WHAT; return the exit code."""
-    device, what = placed(open_device(arguments), arguments), arguments.what
-    if arguments.settings:
-        message = f"--with: {device.id} has nothing that is given or found as `{shortened(arguments.settings[0])}`"
-        raise StopError(message, base_options(device.bases))
+    device, what = model_of(arguments), arguments.what
     if not what.strip():
         raise StopError("there is nothing to explain", "give a code, a name or an address")
     raw = None if arguments.raw is None else _raw_number(arguments.raw)

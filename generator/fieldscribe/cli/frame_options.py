@@ -3,13 +3,14 @@
 from argparse import ArgumentParser, Namespace
 from fractions import Fraction
 
-from fieldscribe.cli.common import StopError, add_repeated
+from fieldscribe.cli.common import StopError, add_repeated, open_device
 from fieldscribe.conversation.encoding import read_settings
-from fieldscribe.conversation.selection import at_bases
+from fieldscribe.conversation.selection import at_bases, base_options
 from fieldscribe.diagnostics import RefusedError, UnclearError
 from fieldscribe.families import Family, families, family
 from fieldscribe.families.frame_results import Options
 from fieldscribe.model import Device
+from fieldscribe.text import shortened
 
 
 def add_with(parser: ArgumentParser) -> None:
@@ -24,6 +25,15 @@ def placed(device: Device, arguments: Namespace) -> Device:
         device, arguments.settings = at_bases(device, arguments.settings)
     except UnclearError as error:
         raise StopError(f"--with: {error.message}", error.hint) from error
+    return device
+
+
+def model_of(arguments: Namespace) -> Device:
+    """Return the device of the command line, at its bases. Raises StopError, also for numbers that are no bases."""
+    device = placed(open_device(arguments), arguments)
+    if arguments.settings:
+        message = f"--with: {device.id} has nothing that is given or found as `{shortened(arguments.settings[0])}`"
+        raise StopError(message, base_options(device.bases) or "leave it out")
     return device
 
 

@@ -6,12 +6,11 @@ from pathlib import Path
 
 from fieldscribe.cli import common
 from fieldscribe.diagnostics import Report, as_data, visible
-from fieldscribe.output.memory import Memory
-from fieldscribe.output.writing import Result
+from fieldscribe.output.memory import Memory, Result
 from fieldscribe.pipeline import find_devices
 from fieldscribe.targets import TARGETS
 
-EXAMPLE = """examples:
+GENERATE_EXAMPLE = """examples:
   fieldscribe generate hitachi_l200 --target c --out firmware/drivers
   fieldscribe generate --check          (says what is stale and writes nothing; for CI)
   fieldscribe generate --check --strict-version
@@ -33,7 +32,7 @@ def add_where(parser: ArgumentParser) -> None:
     parser.add_argument("--out", type=common.some_path, default=Path("generated"), metavar="DIR", help=out)
 
 
-def add_arguments(parser: ArgumentParser) -> None:
+def add_generate_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
     common.add_paths(parser)
     add_where(parser)
@@ -58,7 +57,7 @@ def targets_of(arguments: Namespace) -> tuple[str, ...]:
     return targets
 
 
-def run(arguments: Namespace) -> int:
+def run_generate(arguments: Namespace) -> int:
     """Compile, and return the exit code: 0 fine, 1 findings or stale, 2 environment."""
     targets = targets_of(arguments)
     if arguments.strict_version and not arguments.check:

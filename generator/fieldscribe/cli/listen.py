@@ -1,6 +1,5 @@
 """`fieldscribe listen`: show what devices and their masters exchange, from a capture or on a line, without sending."""
 
-import gc
 import json
 import sys
 import time
@@ -12,9 +11,16 @@ from io import BufferedReader
 from pathlib import Path
 from typing import cast
 
-from fieldscribe.cli.common import StopError, add_descriptions, add_repeated, duration, open_device, usage_error
+from fieldscribe.cli.common import (
+    StopError,
+    add_descriptions,
+    add_repeated,
+    duration,
+    open_device,
+    usage_error,
+)
 from fieldscribe.cli.frame_options import add_family_options, add_with, options_of, placed, settings_of
-from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE
+from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE, collect_rarely
 from fieldscribe.conversation.decoder import logged_frame
 from fieldscribe.diagnostics import UnclearError, visible
 from fieldscribe.families import family
@@ -29,7 +35,7 @@ from fieldscribe.model import Device
 from fieldscribe.pasted_numbers import HexError
 from fieldscribe.text import counted, shortened
 
-EXAMPLE = """examples:
+LISTEN_EXAMPLE = """examples:
   fieldscribe listen hitachi_l200 --capture plant.pcapng
   fieldscribe listen hitachi_l200=1 nord_sk5xxe=2 --line "rtu:///dev/ttyUSB0?baud=9600"
   fieldscribe listen woodward_mpu2s --line can://socketcan/can0 --for 60
@@ -47,12 +53,11 @@ ends with 2 when a capture is cut off or invalid, or has nothing for the ports t
 opened or is lost; what came before is printed
 """
 
-_GC_THRESHOLD = 100_000
 _LAST_MOMENT = 1 << 34
 """Later times are invalid."""
 
 
-def add_arguments(parser: ArgumentParser) -> None:
+def add_listen_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
     add = parser.add_argument
     add(
@@ -82,7 +87,7 @@ def _port(text: str) -> int:
     return int(text)
 
 
-def run(arguments: Namespace) -> int:
+def run_listen(arguments: Namespace) -> int:
     """Listen and print; return the exit code."""
     project = read_project(Path(NAME))
     stations = [_station(arguments, name, project) for name in arguments.devices]
@@ -93,9 +98,7 @@ def run(arguments: Namespace) -> int:
     line = None if arguments.line is None else _line(arguments, project, stations[0].device)
     listener = Listener(stations, options_of(stations[0].device, arguments))
     _require_one_each(stations)
-    gc.freeze()  # objects from before stay
-    gc.set_threshold(_GC_THRESHOLD)
-    gc.enable()  # a line may last for days
+    collect_rarely()
     with ExitStack() as stack:
         writer = PacketWriter(stack.enter_context(open(arguments.write, "xb"))) if arguments.write else None
         output = _Output(arguments, listener, writer)

@@ -10,10 +10,10 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext
 from difflib import get_close_matches
 from pathlib import Path
 from threading import Event, Thread
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-from fieldscribe.cli.common import StopError, add_device, add_repeated, duration, open_device, repeats
-from fieldscribe.cli.frame_options import placed
+from fieldscribe.cli.common import StopError, add_device, add_repeated, duration, repeats
+from fieldscribe.cli.frame_options import model_of
 from fieldscribe.cli.terminal import FINDINGS, USAGE
 from fieldscribe.diagnostics import did_you_mean, visible
 from fieldscribe.live.connection import AnyDevice, Connection, FieldscribeError, advice
@@ -22,21 +22,22 @@ from fieldscribe.live.readings import in_words
 from fieldscribe.model import Device
 from fieldscribe.text import shortened
 
-if TYPE_CHECKING:
-    from fieldscribe.live.snapshots import Snapshot
-
 LINES = """lines: tcp://HOST[:PORT], rtu:///dev/ttyUSB0, rtu+tcp://HOST:PORT, uss:///dev/ttyUSB0, can://INTERFACE/CHANNEL
 serial ones take settings, as in rtu:///dev/ttyUSB0?baud=9600&parity=even&stop=1, uss also pkw=4&pzd=2"""
 
 
-def add_live(parser: ArgumentParser, *, optional: bool = False) -> None:
-    """Add DEVICE and the options about its line; `opened` reads them."""
+def add_live(parser: ArgumentParser, *, optional: bool = False, unit: bool = True) -> None:
+    """Add DEVICE and the options about its line, with those of one `unit`; `opened` reads them."""
     add_device(parser, optional=optional)
     add_repeated(parser, "--with", "NAME=NUMBER", "a number that addresses depend on, such as slot=3", dest="settings")
     add = parser.add_argument
     add("--line", metavar="LINE", help=f"where the device is: tcp://192.168.0.20, or a name from {NAME}")
     add("--timeout", type=duration, metavar="SECONDS", help="how long to wait for an answer")
     add("-v", "--verbose", action="store_true", help="print the frames, and how many requests it took, on stderr")
+    if unit:
+        add("--unit", type=int, metavar="N", help="the unit number (default: 1, or the lowest)")
+        tries = "how often a failed read is repeated (default: 1); writes never are"
+        add("--retries", type=repeats, default=1, metavar="N", help=tries)
 
 
 def add_points(parser: ArgumentParser) -> None:
@@ -50,13 +51,6 @@ def add_writing(parser: ArgumentParser) -> None:
     add = parser.add_argument
     add("--keep", action="store_true", help="keep it when switched off, by EEPROM or a command; wears the memory")
     add("-y", "--yes", action="store_true", help="write without asking")
-
-
-def add_unit(parser: ArgumentParser) -> None:
-    """Add `--unit` and `--retries`."""
-    parser.add_argument("--unit", type=int, metavar="N", help="the unit number (default: 1, or the lowest)")
-    tries = "how often a failed read is repeated (default: 1); writes never are"
-    parser.add_argument("--retries", type=repeats, default=1, metavar="N", help=tries)
 
 
 def line_of(arguments: Namespace) -> LineAddress:
@@ -151,32 +145,9 @@ class Live(NamedTuple):
         """The device, for JSON."""
         return {"device": self.model.id, "unit": self.device.unit, "line": self.line.text}
 
-    def taken(self) -> Snapshot:
-        """Return all that the device holds now. Raises FieldscribeError."""
-        from fieldscribe.live.snapshots import take  # `read` starts without it
-
-        progress = Progress()
-        try:
-            return take(self.model, self.device, self.line.text, progress.show)
-        finally:
-            progress.clear()
-
     def progress(self) -> AbstractContextManager[None]:
         """Show the number of requests sent if it takes long."""
         return Progress().showing(lambda: f"waiting for the device; {self.device.traffic.requests} requests sent")
-
-
-def model_of(arguments: Namespace) -> Device:
-    """Return the device of the command line, at its bases.
-
-    Raises StopError, also for numbers on which no address depends.
-    """
-    model = placed(open_device(arguments), arguments)
-    if arguments.settings:
-        known = ", ".join(each.name for each in model.given)
-        message = f"--with: no address of {model.id} depends on `{shortened(arguments.settings[0])}`"
-        raise StopError(message, f"given numbers: {known}" if known else "leave it out")
-    return model
 
 
 @contextmanager

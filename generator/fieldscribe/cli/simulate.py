@@ -37,7 +37,7 @@ _OF_THE_LINE = {"with": "given", "set": "values", "fault": "faults", "time-scale
 """The options that a bench file has keys for, with their attributes."""
 
 
-EXAMPLE = f"""examples:
+SIMULATE_EXAMPLE = f"""examples:
   fieldscribe simulate hitachi_l200 --tcp 5020
   fieldscribe simulate hitachi_l200 eastron_sdm630@2 --serial
   fieldscribe simulate hitachi_l200 --set A020=60 --fault "late 0.5 x3" --strict --for 10
@@ -49,7 +49,7 @@ ends with 0 at Ctrl-C, SIGTERM or `quit`; with 1 if --strict finds a fault of a 
 missing"""
 
 
-def add_arguments(parser: ArgumentParser) -> None:
+def add_simulate_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
     add = parser.add_argument
     add("devices", nargs="*", metavar="DEVICE[@UNIT]", help="device ids or folders, all on one line")
@@ -88,7 +88,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     add("--for", type=period, metavar="SECONDS", dest="seconds", help="end after that time")
 
 
-def run(arguments: Namespace) -> int:
+def run_simulate(arguments: Namespace) -> int:
     """Serve until the end, and return the exit code."""
     gc.enable()  # the process runs for long
     file: Path | None = arguments.bench

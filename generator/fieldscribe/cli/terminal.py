@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 from collections.abc import Iterable, Sequence
@@ -31,20 +32,25 @@ def is_coloured(stream: TextIO) -> bool:
 
 
 def terminal_width() -> int:
-    """Return the columns of the terminal, 80 if there is none; `shutil` would take long to import."""
-    try:
-        return int(os.environ.get("COLUMNS", "0")) or os.get_terminal_size(sys.stdout.fileno()).columns
-    except (OSError, ValueError):
-        return 80
+    """Return the columns that the environment gives, else those of the terminal."""
+    columns = os.environ.get("COLUMNS", "")
+    return int(columns) if columns.isdecimal() and int(columns) else terminal_size()[0]
 
 
 def terminal_size() -> tuple[int, int]:
-    """Return the columns and lines of the terminal, 80 by 24 if unknown."""
+    """Return the columns and lines of the terminal, 80 by 24 if unknown; `shutil` would take long to import."""
     try:
         columns, lines = os.get_terminal_size(sys.stdout.fileno())
     except (OSError, ValueError):
         columns = lines = 0
     return columns or 80, lines or 24
+
+
+def collect_rarely() -> None:
+    """Collect garbage again in a command that runs for long: rarely, for most of its objects are short-lived texts."""
+    gc.freeze()  # objects from before stay
+    gc.set_threshold(100_000)
+    gc.enable()
 
 
 def print_lines(lines: Iterable[Line], stream: TextIO | None = None) -> None:

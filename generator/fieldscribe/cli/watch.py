@@ -16,7 +16,7 @@ from fieldscribe.cli.generate import add_where, print_waiting, targets_of
 from fieldscribe.cli.terminal import FINE
 from fieldscribe.diagnostics import as_data, summary, visible
 
-EXAMPLE = """examples:
+WATCH_EXAMPLE = """examples:
   fieldscribe watch heat_pump --out bindings
   fieldscribe watch --target c,docs
 
@@ -24,14 +24,14 @@ prints the findings and a line with the time after each run; a description with 
 ends with 0 at Ctrl-C or SIGTERM, when the run that goes on is done"""
 
 
-def add_arguments(parser: ArgumentParser) -> None:
+def add_watch_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
     add_paths(parser)
     add_where(parser)
     add_format(parser)
 
 
-def run(arguments: Namespace) -> int:
+def run_watch(arguments: Namespace) -> int:
     """Watch until Ctrl-C or SIGTERM, and return the exit code."""
     gc.enable()  # the process runs for long
     paths, out = description_paths(arguments.paths), arguments.out

@@ -10,6 +10,7 @@ from fractions import Fraction
 from functools import cache
 from typing import NamedTuple
 
+from fieldscribe.language.units import shipped, shipped_unit
 from fieldscribe.wording.numbers import number_text
 
 _BREAKS = re.compile(r"\s*<\s*(?:br|/?li|/?ul|/?p)\b[^<>]{0,40}>\s*", re.IGNORECASE)
@@ -182,8 +183,6 @@ def numbers_of(*texts: str) -> list[Fraction] | None:
 
 @cache
 def _unit_spellings() -> Mapping[str, str]:
-    from fieldscribe.language.units import shipped
-
     spellings: dict[str, str] = {}
     for unit in shipped().values():
         for spelling in unit.spellings:
@@ -193,8 +192,6 @@ def _unit_spellings() -> Mapping[str, str]:
 
 def unit_in(text: str) -> str:
     """Return the symbol of the shipped unit that a text names; empty if it names none."""
-    from fieldscribe.language.units import shipped_unit
-
     plain = " ".join(text.split()).strip(" .;:[]()")
     if not plain or len(plain) > 24:
         return ""

@@ -8,11 +8,10 @@ import enum
 from collections.abc import Iterable, Iterator, Mapping
 from importlib import import_module
 from types import new_class
-from typing import Any, Literal, NamedTuple, overload
+from typing import Any, NamedTuple
 
 import fieldscribe_runtime as runtime
 from fieldscribe_runtime import (
-    AnyAsyncDevice,
     AnyDevice,
     FieldscribeError,
     LineError,
@@ -53,33 +52,15 @@ class Connection:
     def __init__(self, line: LineAddress, timeout: float | None) -> None:
         """Raises UnclearError for a line that cannot be opened."""
         self.line = line
-        self._part = families_of(line)[0].part("lines")
+        self.part = families_of(line)[0].part("lines")
         try:
-            transport = self._part.open_line(line, {} if timeout is None else {"timeout": timeout})
+            transport = self.part.open_line(line, {} if timeout is None else {"timeout": timeout})
         except FieldscribeError as error:
             raise line.wrong(str(error)) from error
         except ModuleNotFoundError as error:
             raise UnclearError(f"{line.scheme}://: {error}", "pip install 'fieldscribe[live]'") from error
-        self._open = OpenLine(line, transport, timeout)
+        self.open = OpenLine(line, transport, timeout)
         self._classes: dict[str, type[AnyDevice]] = {}
-
-    @property
-    def usual_units(self) -> tuple[int, int]:
-        """Return the lowest and highest unit number of the line. Raises UnclearError if that needs a description."""
-        if not hasattr(self._part, "any_device"):
-            raise UnclearError(f"on {self.line.scheme}:// nothing can be asked without a description", "give DEVICE")
-        ends: tuple[int, int] = self._part.UNITS
-        return ends
-
-    def any_device(self, unit: int) -> AnyDevice:
-        """Return a device without a description, with just a unit."""
-        made: AnyDevice = self._part.any_device(self._open, unit)
-        return made
-
-    def probe(self, device: AnyDevice) -> str:
-        """Send a harmless read to a device without a description; return the answer. Raises FieldscribeError."""
-        text: str = self._part.probe(device)
-        return text
 
     def device(self, model: Device, unit: int, retries: int = 0) -> AnyDevice:
         """Return a runtime device on this line. Raises UnclearError if line and device do not fit."""
@@ -88,7 +69,7 @@ class Connection:
             self._classes[model.id] = device_class(model)
         chosen = {parameter(axis): values[0] for axis, values in model.variants.items() if len(values) == 1}
         try:
-            made: AnyDevice = self._part.device_on(self._open, self._classes[model.id], model, unit, chosen)
+            made: AnyDevice = self.part.device_on(self.open, self._classes[model.id], model, unit, chosen)
             made.retries = retries
         except FieldscribeError as error:
             raise UnclearError(f"{model.id}: {error}", _SETTINGS.get(error.status, "")) from error
@@ -96,7 +77,7 @@ class Connection:
 
     def close(self) -> None:
         """Close the line."""
-        self._open.transport.close()
+        self.open.transport.close()
 
 
 def advice(error: FieldscribeError) -> str:
@@ -146,7 +127,10 @@ class Scanner:
         """Raises UnclearError if the line needs a description."""
         self._connection, self._model = connection, model
         self.requests = 0
-        self.ends = connection.usual_units if model is None else model.bus.units
+        if model is None and not hasattr(connection.part, "any_device"):
+            scheme = connection.line.scheme
+            raise UnclearError(f"on {scheme}:// nothing can be asked without a description", "give DEVICE")
+        self.ends: tuple[int, int] = connection.part.UNITS if model is None else model.bus.units
         self._points = [] if model is None else _harmless_points(model)
 
     def answers(self, units: list[int]) -> Iterator[Answer]:
@@ -165,7 +149,8 @@ class Scanner:
             silent = None if answer.answers else unit
 
     def _answer(self, unit: int) -> Answer:
-        device = self._connection.device(self._model, unit) if self._model else self._connection.any_device(unit)
+        line = self._connection
+        device: AnyDevice = line.device(self._model, unit) if self._model else line.part.any_device(line.open, unit)
         try:
             return Answer(unit, True, self._asked(device))
         except OtherDeviceError as error:
@@ -182,7 +167,7 @@ class Scanner:
 
     def _asked(self, device: AnyDevice) -> str:
         if self._model is None:
-            return self._connection.probe(device)
+            return str(self._connection.part.probe(device))
         found = device.identify() if self._model.identifications else {}
         name = self._model.id if self._model.identifications else ""
         variants = [f"{axis}={value}" for axis, value in found.items()]
@@ -212,27 +197,16 @@ def _harmless_points(model: Device) -> list[str]:
 # Classes of devices.
 
 
-@overload
-def device_class(
-    device: Device, *, awaiting: Literal[False] = False, points: type[runtime.PointTable] | None = None
-) -> type[AnyDevice]: ...
-@overload
-def device_class(
-    device: Device, *, awaiting: Literal[True], points: type[runtime.PointTable] | None = None
-) -> type[AnyAsyncDevice]: ...
-def device_class(
-    device: Device, *, awaiting: bool = False, points: type[runtime.PointTable] | None = None
-) -> type[AnyDevice | AnyAsyncDevice]:
-    """Return the class of a device, like the generated class; `awaiting` makes the async one.
+def device_class(device: Device) -> type[AnyDevice]:
+    """Return the class of a device, like the generated class.
 
     It takes a transport and a unit (and a link, if the family has one), and by keyword the variants and the given
-    numbers. `points` is the class of its points, if that exists already.
+    numbers.
     """
-    bus, names = in_python(device), Identifiers(device)
-    base: Any = getattr(import_module(bus.module), f"Async{bus.device}" if awaiting else bus.device)
-    name = names.async_class if awaiting else names.device_class
-    table = points_class(device) if points is None else points
-    made: type[AnyDevice] = type(name, (table, base), {"__init__": _constructor(device, base)})
+    bus = in_python(device)
+    base: Any = getattr(import_module(bus.module), bus.device)
+    name = Identifiers(device).device_class
+    made: type[AnyDevice] = type(name, (points_class(device), base), {"__init__": constructor(device, base)})
     return made
 
 
@@ -244,7 +218,7 @@ def points_class(device: Device) -> type[runtime.PointTable]:
     return type("Points", (runtime.PointTable,), _members(scope, names))
 
 
-def _constructor(device: Device, base: Any) -> Any:
+def constructor(device: Device, base: Any) -> Any:
     """Return the constructor, which takes variants and given numbers by keyword."""
     axes = {axis: parameter(axis) for axis in device.variants}
     given = {each.name: parameter(each.name) for each in device.given} if device.bases else {}

@@ -101,7 +101,7 @@ class OpenLine:
 def read_line(text: str) -> LineAddress:
     """Return a line from its text. Raises UnclearError for an unknown scheme or setting."""
     scheme, separator, rest = text.strip().partition("://")
-    known = {name: keys for family in families() for name, keys in _schemes(family).items()}
+    known = {name: keys for family in families() for name, keys in schemes_of(family).items()}
     if not separator or scheme not in known:
         near = did_you_mean([f"{name}://" for name in get_close_matches(scheme, known, 1)]) if separator else ""
         what = f"no line begins with `{shortened(scheme)}://`" if separator else f"`{shortened(text)}` is no line"
@@ -126,12 +126,7 @@ def require_line(line: LineAddress, device: Device) -> None:
 
 def families_of(line: LineAddress) -> list[Family]:
     """Return the families whose devices such a line can have."""
-    return [family for family in families() if line.scheme in _schemes(family)]
-
-
-def schemes_of(family: Family) -> list[str]:
-    """Return the schemes of a family's lines."""
-    return list(_schemes(family))
+    return [family for family in families() if line.scheme in schemes_of(family)]
 
 
 def examples() -> list[str]:
@@ -139,7 +134,7 @@ def examples() -> list[str]:
     return [example for family in families() for example in getattr(family.part("lines"), "EXAMPLES", ())]
 
 
-def _schemes(family: Family) -> dict[str, tuple[str, ...]]:
+def schemes_of(family: Family) -> dict[str, tuple[str, ...]]:
     """Return the settings of each scheme of a family."""
     schemes: dict[str, tuple[str, ...]] = getattr(family.part("lines"), "SCHEMES", {})
     return schemes

@@ -11,7 +11,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from fieldscribe.arithmetic import codec
 from fieldscribe.conversation.refusals import written_remarks
@@ -162,23 +162,6 @@ def refusals(model: Device, order: Order) -> list[str]:
 _MOST_BYTES = 32 << 20
 
 
-class Interrupted(NamedTuple):
-    """An interrupted restore: time, device, and what was written, perhaps written, and not written."""
-
-    started: str
-    device: str
-    written: list[str]
-    perhaps: list[str]
-    left: list[str]
-
-    def lines(self) -> Iterator[str]:
-        """Yield the same as text."""
-        yield f"the restore of {self.started} to {self.device} did not end"
-        for what, names in (("written", self.written), ("perhaps written", self.perhaps), ("not written", self.left)):
-            if names:
-                yield f"{what}: {', '.join(names)}"
-
-
 class Journal:
     """The journal of a running restore. `names` are its writes, in order."""
 
@@ -188,30 +171,19 @@ class Journal:
         if self._stream.tell():
             self._stream.write("\n")  # the last line of a killed restore may be incomplete
         started = datetime.now(UTC).isoformat(timespec="seconds")
-        self._note({"started": started, **facts, "writes": names})
-
-    def begin(self, number: int, **facts: Any) -> None:
-        """Log the next write; `facts` are the old and the new number."""
-        self._note({"begin": number, **facts})
-
-    def done(self, number: int) -> None:
-        """Log that the device accepted it."""
-        self._note({"done": number})
-
-    def refused(self, number: int, why: str) -> None:
-        """Log that the device refused it."""
-        self._note({"refused": number, "why": why})
+        self.note(started=started, **facts, writes=names)
 
     def end(self) -> None:
         """Log the end."""
-        self._note({"ended": datetime.now(UTC).isoformat(timespec="seconds")})
+        self.note(ended=datetime.now(UTC).isoformat(timespec="seconds"))
 
     def close(self) -> None:
         """Close the file."""
         with suppress(OSError):  # a note that could not be written has raised it already
             self._stream.close()
 
-    def _note(self, facts: dict[str, Any]) -> None:
+    def note(self, **facts: Any) -> None:
+        """Log facts: that write number `begin` is next, that the device accepted it (`done`) or `refused` it, ..."""
         try:
             self._stream.write(json.dumps(facts) + "\n")
             self._stream.flush()
@@ -221,29 +193,29 @@ class Journal:
             raise
 
 
-def interrupted(path: Path) -> Interrupted | None:
-    """Return the last restore of a journal if it was interrupted; None if not, or without a journal.
+def interrupted(path: Path) -> list[str]:
+    """Return what the last restore of a journal did, line by line, if it was interrupted; nothing otherwise.
 
-    An incomplete line counts as missing. Raises OSError.
+    An incomplete line of the journal counts as missing. Raises OSError.
     """
     try:
         lines = read_regular(path, _MOST_BYTES).data.decode("utf-8", "replace").split("\n")
     except FileNotFoundError:
-        return None
+        return []
     notes: list[dict[str, Any]] = []
     for note in _notes(lines):
         notes = [note] if "writes" in note else [*notes, note]
     if not notes or "writes" not in notes[0] or "ended" in notes[-1]:
-        return None
+        return []
     head = notes[0]
     names = [line(str(name)) for name in head["writes"]]
     states = {note[key]: key for note in notes for key in ("begin", "done", "refused") if type(note.get(key)) is int}
-    of = {
-        state: [name for number, name in enumerate(names) if states.get(number) in keys]
-        for state, keys in (("written", ("done",)), ("perhaps", ("begin",)), ("left", (None, "refused")))
-    }
-    device = f"{head.get('device')}, unit {head.get('unit')}, {head.get('line')}"
-    return Interrupted(line(str(head.get("started"))), line(device), **of)
+    device = line(f"{head.get('device')}, unit {head.get('unit')}, {head.get('line')}")
+    told = [f"the restore of {line(str(head.get('started')))} to {device} did not end"]
+    for what, keys in (("written", ("done",)), ("perhaps written", ("begin",)), ("not written", (None, "refused"))):
+        if some := [name for number, name in enumerate(names) if states.get(number) in keys]:
+            told.append(f"{what}: {', '.join(some)}")
+    return told
 
 
 def _notes(lines: list[str]) -> Iterator[dict[str, Any]]:

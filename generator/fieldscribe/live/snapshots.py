@@ -2,11 +2,11 @@
 
 import json
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 from fractions import Fraction
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_origin
 
 from fieldscribe_runtime import AnyDevice, CodecError, FieldscribeError
 
@@ -32,21 +32,11 @@ class Held(NamedTuple):
     """
 
     code: str | None
-    value: float | str | None
+    value: int | float | str | None
     unit: str
     text: str
     raw: int | None
     kind: str
-
-
-_TYPES: dict[str, tuple[type, ...]] = {
-    "code": (str, type(None)),
-    "value": (int, float, str, type(None)),
-    "unit": (str,),
-    "text": (str,),
-    "raw": (int, type(None)),
-    "kind": (str,),
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,8 +157,8 @@ def read_snapshot(path: Path) -> Snapshot:
         raise UnclearError(f"there is no file {path}", f"name a snapshot first; {writes}") from error
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
         raise wrong from error
-    expected = {"unit": int, "variants": dict, "given": list, "points": dict, "missing": dict}
-    typed = all(isinstance(getattr(snapshot, one.name), expected.get(one.name, str)) for one in fields(snapshot))
+    kinds: dict[str, Any] = {name: get_origin(kind) or kind for name, kind in Snapshot.__annotations__.items()}
+    typed = all(isinstance(getattr(snapshot, name), kind) for name, kind in kinds.items())
     texts = typed and all(isinstance(text, str) for text in _texts(snapshot))
     if not texts or not all(_is_held(held) for held in points.values()):
         raise wrong
@@ -193,7 +183,8 @@ def _texts(snapshot: Snapshot) -> Iterator[object]:
 
 
 def _is_held(held: Held) -> bool:
-    return all(isinstance(each, _TYPES[name]) and not isinstance(each, bool) for name, each in held._asdict().items())
+    kinds = Held.__annotations__
+    return all(isinstance(each, kinds[name]) and not isinstance(each, bool) for name, each in held._asdict().items())
 
 
 class Difference(NamedTuple):

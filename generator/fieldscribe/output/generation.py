@@ -20,9 +20,8 @@ from fieldscribe.diagnostics import Report, Span, show_traceback
 from fieldscribe.model import Device
 from fieldscribe.output.files import FOLDER, GENERATED, Contents, Manifests, Record, Spool
 from fieldscribe.output.lock import only_run
-from fieldscribe.output.memory import Memory
-from fieldscribe.output.plan import Plan, TargetFiles, changed_since, plan_of
-from fieldscribe.output.writing import Result, carry_out
+from fieldscribe.output.memory import Memory, Result
+from fieldscribe.output.writing import Plan, TargetFiles, carry_out, changed_since, plan_of
 from fieldscribe.pipeline import Models, TargetError, is_new, load_models, outputs
 from fieldscribe.safe_files import Inputs, shown_path
 from fieldscribe.targets import TARGETS, knows, target

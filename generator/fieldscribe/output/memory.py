@@ -1,4 +1,4 @@
-"""Remembers the inputs and outputs of the last run, so that a run without changes ends before the compiler is imported.
+"""The result of a run, and a memory of the last one: a run without changes ends before the compiler is imported.
 
 The user's cache folder records the state and digest of each input and output, and the state of each file of the
 compiler. A file is read again only if its state is too new to trust. Any difference means a full run. `generate
@@ -23,6 +23,27 @@ _SETTLED = 2_000_000_000
 """Nanoseconds after which the times of a file are trusted: two changes within one tick of the clock look like one."""
 
 
+class Result:
+    """The result of a run: the relative paths of its outputs, by what happened to them.
+
+    `wanted` are all outputs; `states` and `digests` are those of up-to-date outputs.
+    """
+
+    def __init__(self, wanted: Iterable[str] = ()) -> None:
+        self.wanted = set(wanted)
+        self.written: set[str] = set()
+        self.removed: set[str] = set()
+        self.stale: set[str] = set()
+        self.kept: set[str] = set()
+        self.states: dict[str, State] = {}
+        self.digests: dict[str, str] = {}
+
+    @property
+    def left(self) -> int:
+        """The number of files that were up to date; a shared file counts only for the device that wrote it."""
+        return len(self.wanted - self.written - self.stale)
+
+
 class Memory:
     """The record of the last run with these targets, descriptions and output folder."""
 
@@ -30,7 +51,7 @@ class Memory:
         self._out = out
         named = [os.path.realpath(out), *targets, *map(os.path.abspath, device_files)]
         self._run = [*map(ascii, named), *_compiler()]
-        folder = cache_dir("runs")
+        folder = cache_dir()
         name = crc32(
             "\0".join(named).encode("utf-8", "surrogateescape")
         )  # runs with the same name overwrite each other's record
@@ -94,14 +115,14 @@ def _compiler() -> list[str]:
     return [__version__, sys.version, *(f"{path!a} {state_of(os.stat(path))}" for path in compiler_files())]
 
 
-def cache_dir(name: str) -> Path | None:
-    """Return the cache folder for one purpose, created if missing; None unless only this user can write to it."""
+def cache_dir() -> Path | None:
+    """Return the cache folder of the records, created if missing; None unless only this user can write to it."""
     base = os.environ.get("XDG_CACHE_HOME", "")
     if not os.path.isabs(base):  # the XDG specification says to ignore a relative path
         base = os.path.expanduser("~/.cache")
     if not os.path.isabs(base):
         return None  # no home folder
-    place = Path(base) / "fieldscribe" / name
+    place = Path(base) / "fieldscribe" / "runs"
     try:
         place.mkdir(mode=0o700, parents=True, exist_ok=True)
         status = place.lstat()

@@ -8,7 +8,7 @@ line        devices that share a line: requests in, answers with faults and dela
 servers     sockets, serial lines and CAN buses for a line; `simulated("hitachi_l200")`, for tests
 bench       lines with their devices, from a file, the command line or a test; and the console's commands
 
-A behaviour file changes the numbers over time: `behaviour` implements `device.Behaviour`.
+A behaviour file changes the numbers over time: `behaviour_file` reads its rules, and `behaviour` applies them.
 """
 
 from __future__ import annotations

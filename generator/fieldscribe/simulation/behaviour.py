@@ -12,7 +12,6 @@ from fieldscribe.arithmetic.codec import CodecError, encode, rule_in_force, sett
 from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.model import Point
 from fieldscribe.simulation.behaviour_rules import TIME, ZERO, Amount, Pair, Ref, Rule, Rules, Step
-from fieldscribe.simulation.device import SimulatedDevice
 from fieldscribe.simulation.memory import Memory
 
 SAMPLE = 10
@@ -29,17 +28,18 @@ _LARGEST = Fraction(10**20)
 
 
 class Behaviour:
-    """Applies the rules of a behaviour to the memory of one device."""
+    """Applies the rules of a behaviour to the memory of one device. Times `now` are in seconds of its clock."""
 
-    def __init__(self, rules: Rules) -> None:
-        self.rules = rules
-        self._memory: Memory
-        self._points: Mapping[str, Point] = {}
-        self._rules: list[Rule] = []
-        self._readers: dict[str, frozenset[int]] = {}
-        self._started = False
+    def __init__(self, rules: Rules, memory: Memory) -> None:
+        self.rules, self._memory = rules, memory
+        self._points: Mapping[str, Point] = memory.layout.points
+        self._rules = [rule for rule in rules.rules if rule.ref.name in {*self._points, *rules.plant}]
+        self._readers = _readers(self._rules, self._points)
         self._plant: dict[str, Fraction] = {}
         self._begin(0)
+        self.touch()
+        for name in rules.start.keys() & self._points.keys():
+            self._put(Ref(name, "value"), rules.start[name])
 
     @property
     def plant(self) -> Mapping[str, Fraction]:
@@ -57,38 +57,30 @@ class Behaviour:
         self._exact = True
         self._stale.update(range(len(self._rules)))
 
-    def advance(self, device: SimulatedDevice, now: float) -> None:
-        """Update the memory to the time `now`, in seconds of the clock."""
-        if not self._started:
-            self._started, self._memory = True, device.memory
-            self._points = device.memory.layout.points
-            self._rules = [rule for rule in self.rules.rules if rule.ref.name in {*self._points, *self.rules.plant}]
-            self._readers = _readers(self._rules, self._points)
-            self.touch()
-            for name in self.rules.start.keys() & self._points.keys():
-                self._put(Ref(name, "value"), self.rules.start[name])
+    def advance(self, now: float) -> None:
+        """Update the memory to the time `now`; called before each access."""
         self._advance(_milliseconds(now) - self._origin)
 
-    def written(self, device: SimulatedDevice, points: Sequence[Point], now: float) -> None:
-        """Evaluate the rules after a write."""
+    def written(self, points: Sequence[Point], now: float) -> None:
+        """Evaluate the rules after a write; the memory has the new numbers."""
         for point in points:
             self._stale |= self._readers.get(point.name, frozenset())
-        self.advance(device, now)
+        self.advance(now)
 
-    def heard(self, device: SimulatedDevice, now: float) -> None:
+    def heard(self, now: float) -> None:
         """Note a telegram of the master: delays on its silence start anew."""
-        self.advance(device, now)
+        self.advance(now)
         for number in (ZERO, Fraction(1)) if SILENCE in self._plant else ():
             self._put(Ref(SILENCE, "plant"), number)
             self._settle()
 
-    def restarted(self, device: SimulatedDevice, now: float) -> None:
+    def restarted(self, now: float) -> None:
         """Restart: moving numbers start as before, all others have what the memory kept."""
         self._begin(_milliseconds(now))
         for rule in self._rules:
             if rule.ref.kind == "value" and rule.ref.name in self.rules.start:
                 self._put(rule.ref, self.rules.start[rule.ref.name])
-        self.advance(device, now)
+        self.advance(now)
 
     def _begin(self, origin: int) -> None:
         self._origin, self._now = origin, 0

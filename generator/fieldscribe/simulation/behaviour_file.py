@@ -41,15 +41,11 @@ Dimension = dict[str, int]
 """The units of an expression, each with its power."""
 
 
-def find_behaviour(device_file: Path) -> Path | None:
-    """Return the behaviour file of a device.yaml; None if there is none."""
-    path = device_file.parent / FILE
-    return path if os.path.lexists(path) else None
-
-
-def read_behaviour(path: Path, device: Device, report: Report) -> Rules | None:
-    """Return the rules of a behaviour file for a device; None after a finding."""
-    findings = Report()
+def read_behaviour(device_file: Path, device: Device, report: Report) -> Rules | None:
+    """Return the rules of the behaviour file beside a device.yaml; None without one, or after a finding."""
+    findings, path = Report(), device_file.parent / FILE
+    if not os.path.lexists(path):
+        return None
     source = read_source(path, findings)
     documents = [] if source is None else load(source, findings)
     rules = None
@@ -101,9 +97,7 @@ class _Reader:
             hint = "write a unit that `fieldscribe units` lists, or that a point has"
             self._unknown("unit", symbol, given.span("unit"), declared, hint)
             return None
-        title = facts.get("title", name.replace("_", " "))
-        titles = {"en": title} if isinstance(title, str) else dict(title)
-        return Quantity(name, Fraction(facts.get("start", 0)), symbol, titles)
+        return Quantity(Fraction(facts.get("start", 0)), symbol)
 
     def _start(self) -> Iterator[tuple[str, Fraction]]:
         """Yield the start values of points."""

@@ -8,7 +8,7 @@ from typing import Literal
 from fieldscribe.arithmetic.codec import MOST_EXPONENT
 from fieldscribe.conditions import TESTS
 from fieldscribe.language.formula.syntax import Binary, Expression, Name, Negate, Number, Power10
-from fieldscribe.model import Flag, Titles
+from fieldscribe.model import Flag
 
 ZERO = Fraction(0)
 TIME = "time"
@@ -95,12 +95,10 @@ class Rule:
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """A quantity of the behaviour, which is no point."""
+    """A quantity of the behaviour, which is no point: its number at the start, and the symbol of its unit."""
 
-    name: str
     start: Fraction
     unit: str
-    title: Titles
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,8 +18,7 @@ from fieldscribe.language.nodes import Map, Seq, read_source
 from fieldscribe.model import Device
 from fieldscribe.pipeline import DEVICE_FILE, load_device
 from fieldscribe.resources import descriptions_dir
-from fieldscribe.simulation.behaviour import Behaviour
-from fieldscribe.simulation.behaviour_file import FILE, find_behaviour, read_behaviour
+from fieldscribe.simulation.behaviour_file import FILE, read_behaviour
 from fieldscribe.simulation.behaviour_rules import Rules
 from fieldscribe.simulation.device import Clock, SimulatedDevice
 from fieldscribe.simulation.layout import Layout
@@ -45,19 +44,16 @@ def layout_of(
     return Layout(_model(name, folder), variants, dict(given))
 
 
-def has_behaviour(name: str, folder: Path = LOCAL) -> bool:
-    """Return True if a description has a behaviour file. Raises UnclearError."""
-    return find_behaviour(_file(name, folder)) is not None
-
-
 @lru_cache(maxsize=16)
-def rules_of(name: str, folder: Path = LOCAL) -> Rules:
-    """Return the rules of a description's behaviour file. Raises UnclearError."""
+def rules_of(name: str, folder: Path = LOCAL, *, needed: bool = True) -> Rules | None:
+    """Return the rules of a description's behaviour file; None without one. Raises UnclearError, also if `needed`."""
     file, report = _file(name, folder), Report()
-    path = find_behaviour(file)
-    if path is None:
+    rules = read_behaviour(file, _model(name, folder), report)
+    if report.has_errors:
+        raise BrokenError(report)
+    if rules is None and needed:
         raise UnclearError(f"`{name}` has no behaviour", f"write a {FILE} beside {file}")
-    return _read(read_behaviour(path, _model(name, folder), report), report)
+    return rules
 
 
 @lru_cache(maxsize=16)
@@ -175,16 +171,13 @@ class Bench:
             if isinstance(error, BrokenError):  # the description has errors, which have places of their own
                 raise
             raise _wrong(settings, "device", error.message, error.hint) from None
-        moves = has_behaviour(name, self._folder) if moves is None else moves in (True, "yes")
+        rules = None if moves in (False, "no") else rules_of(name, self._folder, needed=moves is not None)
         low, high = layout.device.bus.units
         devices = []
         for unit in _units(settings, layout.device.bus.usual_unit):
             if not low <= unit <= high and high:
                 raise _wrong(settings, None, f"{layout.device.id} has no unit {unit}", f"its units are {low} to {high}")
-            behaviour = Behaviour(rules_of(name, self._folder)) if moves else None
-            device = SimulatedDevice(
-                layout, unit, seed=self._seed, clock=self.clock, strict=self._strict, behaviour=behaviour
-            )
+            device = SimulatedDevice(layout, unit, seed=self._seed, clock=self.clock, strict=self._strict, rules=rules)
             try:
                 device.refusals.update(settings.get("refusals", {}))
                 device.meet(settings.get("unmet", ()), holds=False)

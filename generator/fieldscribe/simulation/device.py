@@ -6,14 +6,15 @@ import time
 from collections import ChainMap, deque
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Protocol
 
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError
 from fieldscribe.arithmetic.words import insert, raw_of, split, with_fixed
 from fieldscribe.model import Command, Point, Source
+from fieldscribe.simulation.behaviour import Behaviour
+from fieldscribe.simulation.behaviour_rules import Rules
 from fieldscribe.simulation.layout import Area, Cells, Layout, joined_cells
-from fieldscribe.simulation.memory import Memory, Plant, Values
+from fieldscribe.simulation.memory import Memory, Values
 from fieldscribe.wording import label
 from fieldscribe.wording.rules import condition_text
 
@@ -82,22 +83,6 @@ class Complaint:
         return f"{self.rule}: {self.what}{where}"
 
 
-class Behaviour(Plant, Protocol):
-    """Changes the numbers of a device; `simulation.behaviour` makes it from a behaviour file."""
-
-    def advance(self, device: SimulatedDevice, now: float) -> None:
-        """Update the memory to the time `now`, in seconds of the clock; called before each access."""
-
-    def written(self, device: SimulatedDevice, points: Sequence[Point], now: float) -> None:
-        """Handle an accepted write; the memory has the new numbers."""
-
-    def heard(self, device: SimulatedDevice, now: float) -> None:
-        """Handle a telegram of the master; called for each one on a bus whose devices watch for them."""
-
-    def restarted(self, device: SimulatedDevice, now: float) -> None:
-        """Restart; the memory has what survived."""
-
-
 class SimulatedDevice:
     """One device at a `unit` of a line.
 
@@ -115,15 +100,15 @@ class SimulatedDevice:
         seed: int = 0,
         clock: Clock | None = None,
         strict: bool = False,
-        behaviour: Behaviour | None = None,
+        rules: Rules | None = None,
     ) -> None:
         self.device = layout.device
         self.unit = layout.device.bus.usual_unit if unit is None else unit
         self.clock = clock or Clock()
         self.strict = strict
-        self.behaviour = behaviour
         self.memory = Memory.started(layout, seed)
-        self.values = Values(self.memory, self.advance, behaviour)
+        self.behaviour = None if rules is None else Behaviour(rules, self.memory)
+        self.values = Values(self.memory, self.advance, self.behaviour)
         self.conditions = dict.fromkeys((name for point in layout.points.values() for name in point.conditions), True)
         self.refusals: dict[str, int] = {}
         self.complaints: list[Complaint] = []
@@ -145,7 +130,7 @@ class SimulatedDevice:
             del self._busy[name]
             self.memory.put(name, 0)
         if self.behaviour is not None:
-            self.behaviour.advance(self, now)
+            self.behaviour.advance(now)
 
     def read(self, area: Area, addresses: Sequence[int]) -> list[int]:
         """Return the cells at these addresses. Raises Refusal if nothing readable is there."""
@@ -186,13 +171,13 @@ class SimulatedDevice:
         for point in changed:
             self.memory.put(point.name, numbers[point.name])
         if self.behaviour is not None and changed:
-            self.behaviour.written(self, changed, self.clock.now())
+            self.behaviour.written(changed, self.clock.now())
         return points
 
     def heard(self) -> None:
         """Handle a telegram of the master; the device may watch for its silence."""
         if self.behaviour is not None:
-            self.behaviour.heard(self, self.clock.now())
+            self.behaviour.heard(self.clock.now())
 
     def perform(self, command: Command) -> None:
         """Carry out a command of one write: store what waits for it, and be busy for a while."""
@@ -211,7 +196,7 @@ class SimulatedDevice:
             self.memory.put(name, raw)
         self._lost.clear()
         if self.behaviour is not None:
-            self.behaviour.restarted(self, self.clock.now())
+            self.behaviour.restarted(self.clock.now())
 
     def meet(self, conditions: Iterable[str], *, holds: bool) -> None:
         """Set conditions true or false. Raises ValueError for one that no write needs."""

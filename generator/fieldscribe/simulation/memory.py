@@ -6,6 +6,7 @@ from collections import ChainMap
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, MutableMapping
 from decimal import Decimal
 from fractions import Fraction
+from functools import lru_cache
 from random import Random
 from threading import RLock
 from typing import Protocol, TypeVar
@@ -135,7 +136,9 @@ class Memory:
     @classmethod
     def started(cls, layout: Layout, seed: int = 0) -> Memory:
         """Return the memory of a device as delivered; numbers that no manual gives come from the seed."""
-        return cls(*_start(layout, seed))
+        with LOCK:
+            first = _first(layout, seed)
+        return cls(first.layout, first.areas)
 
     def raw(self, name: str) -> int:
         """Return the raw number of a point."""
@@ -216,21 +219,6 @@ class Lookup(Mapping[str, V]):
         return len(self._names)
 
 
-_starts: dict[tuple[int, int], tuple[Layout, Memory]] = {}
-"""The first memories by layout and seed, so that a thousand devices of a kind start as quickly as one."""
-_MOST_STARTS = 64
-
-
-def _start(layout: Layout, seed: int) -> tuple[Layout, Mapping[Area, Mapping[int, int]]]:
-    key = id(layout), seed
-    with LOCK:
-        if key not in _starts:
-            while len(_starts) >= _MOST_STARTS:
-                del _starts[next(iter(_starts))]
-            _starts[key] = layout, _first(layout, seed)
-        return _starts[key][1].layout, _starts[key][1].areas
-
-
 def _empty(layout: Layout) -> dict[Area, dict[int, int]]:
     """Return the words of a device where no point has a number yet."""
     areas: dict[Area, dict[int, int]] = {area: dict(words) for area, words in layout.fixed.items()}
@@ -245,7 +233,9 @@ def _empty(layout: Layout) -> dict[Area, dict[int, int]]:
     return areas
 
 
+@lru_cache(maxsize=64)
 def _first(layout: Layout, seed: int) -> Memory:
+    """Return the first memory; it is kept, so that a thousand devices of a kind start as quickly as one."""
     memory = Memory(layout, _empty(layout))
     for point in layout.order:
         if point.view_of is None and memory.starts(point):

@@ -10,10 +10,9 @@ from typing import NamedTuple
 from fieldscribe.diagnostics import UnclearError
 from fieldscribe.output.files import VENDORED, Contents, Manifests, contents_of, manifest_text
 from fieldscribe.output.lock import only_run
-from fieldscribe.output.plan import Plan, TargetFiles, plan_of
-from fieldscribe.output.writing import carry_out
+from fieldscribe.output.writing import Plan, TargetFiles, carry_out, plan_of
 from fieldscribe.safe_files import read_regular
-from fieldscribe.vendoring.requests import CodeRequest, DocumentRequest, IndexRequest
+from fieldscribe.vendoring.requests import LANGUAGES, CodeRequest, DocumentRequest, IndexRequest
 
 _MOST_BYTES = 512 << 20
 """The largest file that is compared."""
@@ -41,6 +40,7 @@ class Delivery:
     """The result of an order: paths below its folder. `stale` files are out of date, `edited` were changed by hand."""
 
     order: Order
+    plan: Plan
     files: list[str]
     written: list[str] = field(default_factory=list)
     removed: list[str] = field(default_factory=list)
@@ -49,8 +49,6 @@ class Delivery:
     stale: list[str] = field(default_factory=list)
     kept: list[str] = field(default_factory=list)
     refused: dict[str, str] = field(default_factory=dict)
-    advice: dict[str, str] = field(default_factory=dict)
-    """What to do about each refused file."""
 
     @property
     def is_current(self) -> bool:
@@ -105,7 +103,7 @@ def deliver(order: Order, waiting: Callable[[Path], None], *, force: bool = Fals
     return delivery
 
 
-def leftovers(orders: Collection[Order], languages: Collection[str]) -> list[Path]:
+def leftovers(orders: Collection[Order]) -> list[Path]:
     """Return the files of earlier orders in the folders of these orders that none of these needs."""
     folders = {os.path.realpath(order.out): order.out for order in orders}
     wanted = {(os.path.realpath(order.out), order.name, order.request.language) for order in orders}
@@ -113,7 +111,7 @@ def leftovers(orders: Collection[Order], languages: Collection[str]) -> list[Pat
     for folder, out in folders.items():
         manifests = Manifests(out, VENDORED)
         for name, language in ((name, language) for name, of in manifests.requests.items() for language in of):
-            if language in languages and (folder, name, language) not in wanted:
+            if language in LANGUAGES and (folder, name, language) not in wanted:
                 files = manifests.of(name).get(language, {})
                 unshared = [path for path in files if not manifests.is_shared(path, name, [language])]
                 paths += [out / path for path in unshared if os.path.lexists(out / path)]
@@ -153,8 +151,7 @@ def _planned(order: Order, manifests: Manifests, made: TargetFiles, *, force: bo
     requests = manifests.requests.setdefault(order.name, {})
     requests[order.request.language] = order.request.as_data(order.device)
     plan = plan_of(order.out, manifests, order.name, made, force=force)
-    advice = {path: plan.advice(path) for path in plan.refused}
-    return plan, Delivery(order, sorted(plan.digests), refused=dict(sorted(plan.refused.items())), advice=advice)
+    return plan, Delivery(order, plan, sorted(plan.digests), refused=dict(sorted(plan.refused.items())))
 
 
 def _list_of(order: Order, manifests: Manifests, delivery: Delivery, path: str) -> list[str]:

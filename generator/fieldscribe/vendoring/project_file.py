@@ -10,7 +10,7 @@ points = ["A001", "status"]  # codes, names, groups, patterns (default: all)
 
 import os
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -24,10 +24,18 @@ from fieldscribe.vendoring.requests import LANGUAGE_OF, LANGUAGES, CodeRequest
 
 NAME = "fieldscribe.toml"
 _MOST_BYTES = 1 << 20
-_LISTS = {"targets", "points"}
-_SWITCHES = {*LANGUAGE_OF}
-_KEYS = {"device", "targets", "points", "out", "as", *_SWITCHES}
-_COMMON = {"out", "targets"}
+_KEYS: dict[str, tuple[type, str]] = {
+    "device": (str, '"hitachi_l200"'),
+    "targets": (list, '["c"]'),
+    "points": (list, '["A001", "status"]'),
+    "out": (str, '"drivers"'),
+    "as": (str, '"first_drive"'),
+    **dict.fromkeys(LANGUAGE_OF, (bool, "true")),
+}
+"""The keys of a device, each with the type of its value, and an example."""
+_TYPES = {str: "is a text", list: "is a list of words", bool: "is true or false"}
+_COMMON = ("out", "targets")
+"""The keys that the file may have for all devices."""
 _OF_LINES = ("lines", "stations")
 """The tables for commands that talk to devices, which `live/lines.py` reads."""
 _WHERE = re.compile(r"at line (\d+), column (\d+)")
@@ -93,7 +101,7 @@ class _Reader:
     def _of_device(self, settings: Mapping[str, Any], number: int, entry: Mapping[str, Any]) -> Iterator[ProjectDevice]:
         for key in ("device", "out", "targets"):
             if not settings.get(key):
-                self._wrong(f"`{key}` is missing", number, key, f"write `{key} = {_EXAMPLES[key]}`")
+                self._wrong(f"`{key}` is missing", number, key, f"write `{key} = {_KEYS[key][1]}`")
         if self._report.has_errors:
             return
         out = self._inside(settings["out"], self._span(number if "out" in entry else None, "out"))
@@ -118,13 +126,13 @@ class _Reader:
         """Report an error at the place of a key, of the n-th device or of the file (None)."""
         self._report.error("bad-project", message, self._span(number, key), hint)
 
-    def _check(self, settings: Mapping[str, Any], number: int | None, known: set[str]) -> None:
+    def _check(self, settings: Mapping[str, Any], number: int | None, known: Collection[str]) -> None:
         for key, value in settings.items():
             if key not in known:
                 hint = did_you_mean(get_close_matches(key, sorted(known), 1)) or f"there are {', '.join(sorted(known))}"
                 self._wrong(f"there is no key `{shortened(key)}` here", number, key, hint)
             elif not _fits(key, value):
-                self._wrong(f"`{key}` {_kind(key)}", number, key, f"write `{key} = {_EXAMPLES[key]}`")
+                self._wrong(f"`{key}` {_TYPES[_KEYS[key][0]]}", number, key, f"write `{key} = {_KEYS[key][1]}`")
             elif key == "targets" and (unknown := [name for name in value if name not in LANGUAGES]):
                 message = f"`{shortened(unknown[0])}` is not a language for code"
                 self._wrong(message, number, key, f"there are {', '.join(LANGUAGES)}")
@@ -148,30 +156,15 @@ class _Reader:
         return Span(shown_path(self._file), first + 1, 1)
 
 
-_EXAMPLES = {
-    "device": '"hitachi_l200"',
-    "targets": '["c"]',
-    "points": '["A001", "status"]',
-    "out": '"drivers"',
-    "as": '"first_drive"',
-    **dict.fromkeys(_SWITCHES, "true"),
-}
-
-
 def _is_device_head(line: str) -> bool:
     return "".join(line.split("#", maxsplit=1)[0].split()) == "[[devices]]"
 
 
 def _fits(key: str, value: object) -> bool:
-    if key in _SWITCHES:
-        return isinstance(value, bool)
-    if key in _LISTS:
+    kind = _KEYS[key][0]
+    if kind is list:
         return isinstance(value, list) and all(isinstance(word, str) and word for word in value)
-    return isinstance(value, str) and "\0" not in value and bool(value)
-
-
-def _kind(key: str) -> str:
-    return "is true or false" if key in _SWITCHES else "is a list of words" if key in _LISTS else "is a text"
+    return isinstance(value, kind) and value != "" and "\0" not in str(value)
 
 
 def _message(error: ValueError) -> str:

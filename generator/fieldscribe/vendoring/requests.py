@@ -21,7 +21,7 @@ from typing import Any
 from fieldscribe.code_view import for_code
 from fieldscribe.diagnostics import UnclearError
 from fieldscribe.model import Device
-from fieldscribe.pages.site import NAME, Shelf, site_files
+from fieldscribe.pages.site import INDEX, Shelf, site_files
 from fieldscribe.resources import render, templates_dir
 from fieldscribe.targets import target
 from fieldscribe.targets.docs import csv_files, html_files, markdown_files, xlsx_files
@@ -268,7 +268,7 @@ class IndexRequest:
     devices: tuple[Device, ...]
     shelves: tuple[Shelf, ...] = ()
     language = "html"
-    name = NAME
+    name = INDEX
     extra = DocumentRequest.extra
 
     def as_data(self, device: str) -> dict[str, object]:

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 from fieldscribe.live.connection import device_class
 from fieldscribe_runtime import AccessError, FieldscribeError, RequestError
+from support.async_classes import async_device_class
 from support.described import described, loaded_in
 from support.python_package import Slave
 
@@ -37,7 +38,7 @@ def line() -> Slave:
 
 def made(line: Slave, folder: Path, *, awaiting: bool = False) -> Any:
     model = loaded_in(folder, described(POINTS))
-    kind: Any = device_class(model, awaiting=True) if awaiting else device_class(model)
+    kind: Any = async_device_class(model) if awaiting else device_class(model)
     return kind(line, 1)
 
 

@@ -8,7 +8,7 @@ import ast
 import re
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import Protocol, TypeAlias
+from typing import TypeAlias
 
 from fieldscribe.conditions import TESTS
 from fieldscribe.grouping import grouped
@@ -126,17 +126,7 @@ def _comparison_of(row: Row, sign: str, number: int) -> str:
 # Conditions as texts.
 
 
-class ParameterNames(Protocol):
-    """The meaning of parameter names of a template in the description."""
-
-    def compared(self, name: str, sign: str, number: int) -> Condition:
-        """Return the condition that compares a parameter with a number."""
-
-    def defined(self, name: str) -> Condition:
-        """Return the condition that a parameter exists."""
-
-
-def condition_of(text: str, names: ParameterNames) -> Condition:
+def condition_of(text: str, names: Parameters) -> Condition:
     """Return the condition of a template as a description writes it. Raises ValueError if it cannot be read."""
     if len(text) > _LONGEST:
         raise ValueError(f"it has more than {_LONGEST} characters")
@@ -178,7 +168,7 @@ def _all_of(parts: Sequence[Condition]) -> Condition:
     return " and ".join(f"({text})" if " or " in text and len(texts) > 1 else text for text in texts) or True
 
 
-def _condition(node: ast.expr, names: ParameterNames) -> Condition:
+def _condition(node: ast.expr, names: Parameters) -> Condition:
     """Return the condition for a part of a template's condition. Raises ValueError."""
     match node:
         case ast.BoolOp(op=ast.And(), values=values):
@@ -194,7 +184,7 @@ def _condition(node: ast.expr, names: ParameterNames) -> Condition:
     raise ValueError(f"`{ast.unparse(node)[:40]}` is not understood")
 
 
-def _comparison(left: ast.expr, sign: str, right: ast.expr, names: ParameterNames) -> Condition:
+def _comparison(left: ast.expr, sign: str, right: ast.expr, names: Parameters) -> Condition:
     match _number(left), _number(right):
         case int() as first, int() as second:
             return TESTS[sign](first, second)

@@ -1,9 +1,10 @@
-"""`fieldscribe vendor`: deliver exactly the files that a project needs."""
+"""`fieldscribe vendor` and `docs`: exactly the files that a project needs of a device, and its documentation."""
 
 import re
 from argparse import SUPPRESS, ArgumentParser, Namespace
 from collections.abc import Sequence
 from functools import partial
+from itertools import chain
 from pathlib import Path
 
 from fieldscribe.checks.device_name_is_free import reasons
@@ -21,14 +22,17 @@ from fieldscribe.cli.generate import print_waiting
 from fieldscribe.cli.terminal import FINDINGS, FINE
 from fieldscribe.diagnostics import Report, UnclearError, visible
 from fieldscribe.language.keys.forms import ID
+from fieldscribe.model import Device
 from fieldscribe.output.writing import update_depfile
+from fieldscribe.pages.site import INDEX, load_pages
+from fieldscribe.pipeline import find_devices
 from fieldscribe.safe_files import Inputs, read_regular
 from fieldscribe.vendoring.deliveries import Delivery, Order, compare, deliver, leftovers, refuse_duplicates
 from fieldscribe.vendoring.project_file import NAME, read_project
-from fieldscribe.vendoring.requests import LANGUAGE_OF, LANGUAGES, CodeRequest
+from fieldscribe.vendoring.requests import FORMATS, LANGUAGE_OF, LANGUAGES, CodeRequest, DocumentRequest, IndexRequest
 from fieldscribe.vendoring.selection import address_only_messages, select
 
-EXAMPLE = """examples:
+VENDOR_EXAMPLE = """examples:
   fieldscribe vendor c hitachi_l200 --out firmware/drivers
   fieldscribe vendor c hitachi_l200 --out firmware/drivers --points A001,D001,run_command
   fieldscribe vendor c hitachi_l200 --out firmware/drivers --points @points.txt --single-file
@@ -43,7 +47,7 @@ pattern; what they need comes with them
 also ends with 1 when a device has errors or a foreign file is in the way; nothing of that device is written then"""
 
 
-def add_arguments(parser: ArgumentParser) -> None:
+def add_vendor_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
     add = parser.add_argument
     add("language", nargs="?", metavar="LANGUAGE", help=f"one of {', '.join(LANGUAGES)}")
@@ -54,10 +58,16 @@ def add_arguments(parser: ArgumentParser) -> None:
     points = "codes, names, groups or patterns, with commas between, or @FILE (# begins a comment there)"
     add("--points", metavar="LIST", help=points)
     add("--as", dest="name", metavar="NAME", help="the name of the device in code (default: its id)")
-    add("--single-file", action="store_true", help="c: all in one header")
-    add("--wheel", action="store_true", help="python: wheels of the device and of the runtime")
-    add("--rows", action="store_true", help="c: Modbus points as rows of tables, in a header of their own")
-    add("--no-frames", action="store_true", help="c: points and constants, without the code that builds frames")
+    add("--single-file", action="store_true", default=SUPPRESS, help="c: all in one header")
+    add("--wheel", action="store_true", default=SUPPRESS, help="python: wheels of the device and of the runtime")
+    add(
+        "--rows",
+        action="store_true",
+        default=SUPPRESS,
+        help="c: Modbus points as rows of tables, in a header of their own",
+    )
+    without = "c: points and constants, without the code that builds frames"
+    add("--no-frames", dest="frames", action="store_false", default=SUPPRESS, help=without)
     add("--project", type=some_path, metavar="FILE", help="the project file (default: fieldscribe.toml)")
     add("--check", action="store_true", help="write nothing; list what is missing, stale or edited")
     add("--depfile", type=some_path, metavar="FILE", help="write a make rule from outputs to inputs")
@@ -66,7 +76,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_format(parser)
 
 
-def run(arguments: Namespace) -> int:
+def run_vendor(arguments: Namespace) -> int:
     """Deliver or compare, and return the exit code."""
     if arguments.more:
         each = f"call it once for each, or name them in {NAME}"
@@ -86,7 +96,7 @@ def run(arguments: Namespace) -> int:
     if not looks and arguments.depfile and all(delivery.is_current for delivery in deliveries):
         outputs = [delivery.order.out / path for delivery in deliveries for path in delivery.files]
         update_depfile(arguments.depfile, outputs, inputs.digests)
-    left = leftovers(orders, LANGUAGES) if arguments.language is None else []
+    left = leftovers(orders) if arguments.language is None else []
     return print_deliveries(deliveries, arguments.format, check=arguments.check, left=left)
 
 
@@ -124,7 +134,7 @@ def _orders(arguments: Namespace, report: Report, inputs: Inputs) -> list[Order]
             raise StopError("--project is for `fieldscribe vendor` without LANGUAGE", "leave out one of them")
         return [_order(arguments, _request(arguments, inputs), arguments.device, arguments.out, inputs)]
     of_one = (arguments.out, arguments.points, arguments.name)
-    if any(option is not None for option in of_one) or _switches(arguments) != _UNSAID:
+    if any(option is not None for option in of_one) or _switches(arguments):
         raise StopError("LANGUAGE and DEVICE are missing", "as in `fieldscribe vendor c hitachi_l200 --out drivers`")
     file = arguments.project or Path(NAME)
     try:
@@ -147,7 +157,7 @@ def _orders(arguments: Namespace, report: Report, inputs: Inputs) -> list[Order]
 def _order(arguments: Namespace, request: CodeRequest, device: str, out: Path | None, inputs: Inputs) -> Order:
     """Return an order, with its device loaded and its points checked. Raises UnclearError."""
     if device is None or out is None:
-        raise StopError(f"{'DEVICE' if device is None else '--out DIR'} is missing", f"as in {_USAGE}")
+        raise StopError(f"{'DEVICE' if device is None else '--out DIR'} is missing", f"as in {_VENDOR_USAGE}")
     if request.name is not None:
         bad = None if re.fullmatch(ID.pattern, request.name) else "is no name: small letters, digits and _ make one"
         taken = bad or next(reasons(request.name), None)
@@ -161,18 +171,18 @@ def _order(arguments: Namespace, request: CodeRequest, device: str, out: Path | 
     return Order(opened.id, request, out, partial(request.contents, opened))
 
 
-_USAGE = "`fieldscribe vendor c hitachi_l200 --out drivers`"
+_VENDOR_USAGE = "`fieldscribe vendor c hitachi_l200 --out drivers`"
 
 
 def _request(arguments: Namespace, inputs: Inputs) -> CodeRequest:
     """Return the request of the command line. Raises StopError."""
     language = arguments.language
     if language not in LANGUAGES:
-        hint = f"there are {', '.join(LANGUAGES)}, as in {_USAGE}"
+        hint = f"there are {', '.join(LANGUAGES)}, as in {_VENDOR_USAGE}"
         raise StopError(f"`{language}` is not a language for code", hint)
     switches = _switches(arguments)
     for switch, of_language in LANGUAGE_OF.items():
-        if switches[switch] != _UNSAID[switch] and language != of_language:
+        if switch in switches and language != of_language:
             option = "no-frames" if switch == "frames" else switch.replace("_", "-")
             raise StopError(f"--{option} is for {of_language}")
     points = _points(arguments.points, inputs)
@@ -182,11 +192,8 @@ def _request(arguments: Namespace, inputs: Inputs) -> CodeRequest:
 
 
 def _switches(arguments: Namespace) -> dict[str, bool]:
-    named = {name: getattr(arguments, name) for name in ("rows", "single_file", "wheel")}
-    return {"frames": not arguments.no_frames, **named}
-
-
-_UNSAID = {"frames": True, "rows": False, "single_file": False, "wheel": False}
+    """Return the switches that are given."""
+    return {name: value for name, value in vars(arguments).items() if name in LANGUAGE_OF}
 
 
 def _points(text: str | None, inputs: Inputs) -> tuple[str, ...]:
@@ -215,16 +222,16 @@ def print_deliveries(deliveries: list[Delivery], form: str, *, check: bool, left
         print_json(data | ({"not_in_project": list(map(str, left))} if left else {}))
     for delivery in deliveries:
         if form == "text":
-            _print(delivery, check=check)
+            _print_delivery(delivery, check=check)
         for path, reason in delivery.refused.items():
-            usage_error(f"{delivery.order.out / path} is in the way: {reason}", delivery.advice[path])
+            usage_error(f"{delivery.order.out / path} is in the way: {reason}", delivery.plan.advice(path))
     if left and form == "text":
         print(*(f"not in the project file: {visible(str(path))}" for path in left), sep="\n")
         print("  hint: delete them if nobody needs them, or name their device and target there")
     return FINE if all(delivery.is_current for delivery in deliveries) else FINDINGS
 
 
-def _print(delivery: Delivery, *, check: bool) -> None:
+def _print_delivery(delivery: Delivery, *, check: bool) -> None:
     out = delivery.order.out
     for what, paths in (
         ("missing", delivery.missing),
@@ -242,3 +249,80 @@ def _print(delivery: Delivery, *, check: bool) -> None:
         done = f"{len(delivery.written)} written, {len(delivery.removed)} removed"
         left = len(delivery.files) - len(delivery.written)
         print(f"{done}, {left} unchanged of {delivery.order.name} in {visible(str(out))}")
+
+
+DOCS_EXAMPLE = """examples:
+  fieldscribe docs hitachi_l200 --format xlsx --out tables
+  fieldscribe docs siemens_mm4 jumo_controller --format csv --out tables
+  fieldscribe docs nord_sk5xxe --format markdown --out manuals
+  fieldscribe docs woodward_mpu2s --format html --out pages
+  fieldscribe docs hitachi_l200 nord_sk5xxe --pages --format html --out site
+  fieldscribe docs descriptions --format html --out all          (each device of a folder)
+  fieldscribe docs hitachi_l200 --format xlsx --out tables --check
+
+a workbook has the points, their meanings (names of numbers, flags, special codes), the errata, and what its columns say
+several devices as html have an index.html, which lists and searches all that the command names
+--check writes nothing, says what is missing, stale or edited by hand, and ends with 1 if anything is
+also ends with 1 when a device has errors or a foreign file is in the way; nothing of that device is written then"""
+
+
+_DEVICES = "ids of devices, or paths: of a device.yaml, its folder, or a folder of such folders"
+
+
+def add_docs_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    add = parser.add_argument
+    add("devices", nargs="*", metavar="DEVICE", help=_DEVICES)
+    add_descriptions(parser)
+    forms = "; ".join(f"{form}: {what}" for form, what in FORMATS.items())
+    add("--format", choices=tuple(FORMATS), required=True, help=forms)
+    add("--pages", action="store_true", help="html: the pages of fieldscribe itself, too: language, keys, using")
+    add("--out", type=some_path, required=True, metavar="DIR", help="the folder that they go to")
+    add("--check", action="store_true", help="write nothing; list what is missing, stale or edited")
+    add("--force", action="store_true", help="replace files in the way that fieldscribe did not make")
+
+
+def run_docs(arguments: Namespace) -> int:
+    """Write or compare the files; return the exit code."""
+    if arguments.pages and arguments.format != "html":
+        raise StopError("--pages is for --format html")
+    if not arguments.devices and not arguments.pages:
+        raise StopError("DEVICE is missing", "name devices, or say --pages for the pages of fieldscribe itself")
+    devices: list[Device] = []
+    code = FINE
+    for name in chain.from_iterable(map(_devices_named, arguments.devices)):
+        try:
+            device = open_device(Namespace(device=name, descriptions=arguments.descriptions))
+        except StopError as stop:
+            code = max(code, stop.report())
+            continue
+        if device not in devices:  # it may be named by its id, and in its folder
+            devices.append(device)
+    has_index = arguments.format == "html" and (arguments.pages or len(devices) > 1)
+    request = DocumentRequest(arguments.format, index=f"{INDEX}.html" if has_index else "")
+    orders = [Order(device.id, request, arguments.out, partial(request.contents, device)) for device in devices]
+    if has_index:
+        orders.append(_index_order(arguments, devices))
+    deliveries = deliver_all(orders, "text", check=arguments.check, force=arguments.force)
+    return max(code, print_deliveries(deliveries, "text", check=arguments.check))
+
+
+def _devices_named(name: str) -> list[str]:
+    """Return the devices of a name: all devices of a folder, or the one with this name."""
+    is_folder = bool(name) and Path(name).is_dir()  # an empty name would be the working folder
+    files = find_devices([Path(name)], Report()) if is_folder else []
+    return list(map(str, files)) if len(files) > 1 else [name]
+
+
+def _index_order(arguments: Namespace, devices: list[Device]) -> Order:
+    """Return the order of the index. Raises StopError."""
+    report, names = Report(), [device.id for device in devices]
+    try:
+        shelves = load_pages(names, report) if arguments.pages else ()
+    except ModuleNotFoundError as error:
+        raise StopError("--pages needs markdown-it-py", 'pip install "fieldscribe[html]"') from error
+    if report.has_errors:
+        report_findings(report, "text")
+        raise StopError("", code=FINDINGS)
+    index = IndexRequest(tuple(devices), shelves)
+    return Order(index.name, index, arguments.out, index.contents)
