@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from fieldscribe.model import Device
-from fieldscribe.targets.c.layout import raw_type, wire_kind
+from fieldscribe.targets.c.syntax import raw_type, wire_kind
 from fieldscribe.targets.c.word_functions import has_form
 from support.c_device import program, run_program, write_headers
 from support.described import made

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from fieldscribe.targets.c.layout import raw_type, wire_kind
+from fieldscribe.targets.c.syntax import raw_type, wire_kind
 from fieldscribe.targets.c.word_functions import has_form
 from support.c_device import SANITIZING, program, run_program, write_headers
 from support.described import made, shipped

@@ -22,10 +22,10 @@ from fieldscribe.targets.c.header import (
     remark_defines,
     telegrams_of,
 )
-from fieldscribe.targets.c.layout import framed
 from fieldscribe.targets.c.limits import ranges_table
 from fieldscribe.targets.c.point_views import GeneratedPoint, fields_of, generated_points, names_of, symbols_of
 from fieldscribe.targets.c.scope import HeaderScope, PointView, scope_of
+from fieldscribe.targets.c.syntax import framed
 from fieldscribe.targets.identifiers import Named, Names, Owner
 from fieldscribe.text import upper
 

@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 from fieldscribe.targets.c.conversions import is_rechecked, value_type
-from fieldscribe.targets.c.layout import Function, called, function, raw_kind
 from fieldscribe.targets.c.scope import HeaderScope, PointView
+from fieldscribe.targets.c.syntax import Function, called, function, raw_kind
 from fieldscribe.targets.c.word_functions import coded_bits, has_words
 from fieldscribe.text import upper
 

@@ -9,9 +9,9 @@ from fieldscribe.targets.c.calls import call_cases
 from fieldscribe.targets.c.conversions import value_type
 from fieldscribe.targets.c.declarations import shares_values, special_defines
 from fieldscribe.targets.c.frames import Frames, frames_of, kind_of
-from fieldscribe.targets.c.layout import folded, raw_type
 from fieldscribe.targets.c.point_views import GeneratedPoint, names_of, texts_of
 from fieldscribe.targets.c.scope import HeaderScope, PointView
+from fieldscribe.targets.c.syntax import folded, raw_type
 from fieldscribe.targets.c.word_functions import has_form, has_words
 from fieldscribe.text import upper
 

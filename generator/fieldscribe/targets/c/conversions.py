@@ -6,7 +6,10 @@ from fractions import Fraction
 from fieldscribe.arithmetic.words import INT64
 from fieldscribe.model import Point
 from fieldscribe.targets.c.declarations import codes_first, encoded_limits
-from fieldscribe.targets.c.layout import (
+from fieldscribe.targets.c.limits import check, known, refused
+from fieldscribe.targets.c.scales import Scaled, linear
+from fieldscribe.targets.c.scope import HeaderScope, PointView
+from fieldscribe.targets.c.syntax import (
     INLINE,
     STATUS,
     VALUE_BOUNDS,
@@ -18,9 +21,6 @@ from fieldscribe.targets.c.layout import (
     sign_and_size,
     unsigned,
 )
-from fieldscribe.targets.c.limits import check, known, refused
-from fieldscribe.targets.c.scales import Scaled, linear
-from fieldscribe.targets.c.scope import HeaderScope, PointView
 from fieldscribe.targets.c.word_functions import fixed_number, fixes
 
 _POWERS = 9

@@ -9,7 +9,9 @@ from fieldscribe import wording
 from fieldscribe.arithmetic.texts import epoch_in_unix
 from fieldscribe.arithmetic.words import INT64, group_mask
 from fieldscribe.model import Flag, Point, Special
-from fieldscribe.targets.c.layout import (
+from fieldscribe.targets.c.limits import bracketed, is_in
+from fieldscribe.targets.c.scope import CodesView, Define, HeaderScope, PointFields
+from fieldscribe.targets.c.syntax import (
     INLINE,
     WIDTH,
     filled,
@@ -20,8 +22,6 @@ from fieldscribe.targets.c.layout import (
     signed,
     unsigned,
 )
-from fieldscribe.targets.c.limits import bracketed, is_in
-from fieldscribe.targets.c.scope import CodesView, Define, HeaderScope, PointFields
 from fieldscribe.text import c_comment, c_string, upper
 
 

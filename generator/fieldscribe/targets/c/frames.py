@@ -12,9 +12,9 @@ from fieldscribe.families import family
 from fieldscribe.model import Device, Point
 from fieldscribe.resources import Render
 from fieldscribe.targets.c.calls import Transfer, call_names, calls, left_out
-from fieldscribe.targets.c.layout import WIDTH, folded, hexadecimal, wire_kind
 from fieldscribe.targets.c.point_views import GeneratedPoint, texts_of
 from fieldscribe.targets.c.scope import AliasView, Define, HeaderScope, PointView
+from fieldscribe.targets.c.syntax import WIDTH, folded, hexadecimal, wire_kind
 from fieldscribe.targets.c.word_functions import constant_bits, has_form
 from fieldscribe.targets.identifiers import Named, Owner
 from fieldscribe.text import c_comment, upper

@@ -13,9 +13,9 @@ from fieldscribe.arithmetic.words import INT32
 from fieldscribe.lowered import plan_of
 from fieldscribe.model import Point
 from fieldscribe.targets.c.conversions import is_rechecked
-from fieldscribe.targets.c.layout import raw_type, wrapped
 from fieldscribe.targets.c.point_views import GeneratedPoint
 from fieldscribe.targets.c.scope import HeaderScope, PointView
+from fieldscribe.targets.c.syntax import raw_type, wrapped
 from fieldscribe.targets.c.word_functions import has_words
 from fieldscribe.targets.placeholders import TextTemplates
 from fieldscribe.text import c_comment, c_string

@@ -9,9 +9,9 @@ from fieldscribe import wording
 from fieldscribe.model import Device, Point, Variant, Version
 from fieldscribe.resources import Render
 from fieldscribe.targets.c.declarations import defines, place_defines
-from fieldscribe.targets.c.layout import filled, folded, framed, signed
 from fieldscribe.targets.c.point_views import GeneratedPoint, fields_of, functions_of, symbols_of, texts_of
 from fieldscribe.targets.c.scope import AliasView, Define, HeaderScope, PointFields, PointView
+from fieldscribe.targets.c.syntax import filled, folded, framed, signed
 from fieldscribe.targets.identifiers import head_lines
 from fieldscribe.text import c_comment, c_string, upper
 

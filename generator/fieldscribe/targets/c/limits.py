@@ -8,9 +8,9 @@ from operator import attrgetter
 from fieldscribe.arithmetic.words import INT64, ends_without
 from fieldscribe.lowered import Operand, Rule
 from fieldscribe.model import Interval, Limit, Point
-from fieldscribe.targets.c.layout import bare, float_order, function, hexadecimal, raw_type, signed, unsigned
 from fieldscribe.targets.c.scales import linear
 from fieldscribe.targets.c.scope import HeaderScope, PointFields, RuleView
+from fieldscribe.targets.c.syntax import bare, float_order, function, hexadecimal, raw_type, signed, unsigned
 
 _TABLE = 3
 """From this many ranges on a table is used; fewer are tested one by one."""

@@ -21,10 +21,10 @@ from fieldscribe.targets.c.declarations import (
     range_words,
     value_defines,
 )
-from fieldscribe.targets.c.layout import INLINE, WIDTH, Function, bare, filled, function, hexadecimal, raw_type, signed
 from fieldscribe.targets.c.limits import has_ranges_table, name_shared, ranges_table, rule_view
 from fieldscribe.targets.c.scales import Scaled
 from fieldscribe.targets.c.scope import EnumView, HeaderScope, PointFields, PointView, RuleView
+from fieldscribe.targets.c.syntax import INLINE, WIDTH, Function, bare, filled, function, hexadecimal, raw_type, signed
 from fieldscribe.targets.c.word_functions import (
     bits_functions,
     date_rows,

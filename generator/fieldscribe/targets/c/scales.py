@@ -13,7 +13,7 @@ from fieldscribe.arithmetic.exact import Line
 from fieldscribe.arithmetic.words import INT32, INT64
 from fieldscribe.lowered import Plan, plan_of
 from fieldscribe.model import Point
-from fieldscribe.targets.c.layout import bare, cast, raw_type, real, sign_and_size, signed, unsigned
+from fieldscribe.targets.c.syntax import bare, cast, raw_type, real, sign_and_size, signed, unsigned
 
 _EXACT = 1 << 53
 

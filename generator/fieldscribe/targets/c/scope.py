@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 from fieldscribe.lowered import Lowered, lower
 from fieldscribe.model import Device, Flag, Point
-from fieldscribe.targets.c.layout import raw_type
 from fieldscribe.targets.c.scales import Scaled
+from fieldscribe.targets.c.syntax import raw_type
 from fieldscribe.text import upper
 
 

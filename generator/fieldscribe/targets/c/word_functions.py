@@ -4,9 +4,9 @@ from collections.abc import Iterator
 
 from fieldscribe.arithmetic.words import group_mask, mask_of
 from fieldscribe.model import Point, Text
-from fieldscribe.targets.c.layout import INLINE, STATUS, Function, function, hexadecimal, raw_type
 from fieldscribe.targets.c.limits import digits_arguments
 from fieldscribe.targets.c.scope import HeaderScope
+from fieldscribe.targets.c.syntax import INLINE, STATUS, Function, function, hexadecimal, raw_type
 from fieldscribe.text import upper
 
 

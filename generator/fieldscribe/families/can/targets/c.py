@@ -8,9 +8,9 @@ from fieldscribe.families.can.frames import carriers, frame_count, request_and_a
 from fieldscribe.model import Device, Message, Point, Role, Telegram
 from fieldscribe.targets.c import frames
 from fieldscribe.targets.c.groups import Members, Part, StructView
-from fieldscribe.targets.c.layout import hexadecimal
 from fieldscribe.targets.c.point_views import GeneratedPoint
 from fieldscribe.targets.c.scope import HeaderScope, PointView
+from fieldscribe.targets.c.syntax import hexadecimal
 from fieldscribe.targets.identifiers import Named, Owner
 from fieldscribe.text import c_comment, upper
 

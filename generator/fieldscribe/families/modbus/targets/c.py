@@ -13,9 +13,9 @@ from fieldscribe.model import Base, Block, Command, Device, Found, Point, Steppe
 from fieldscribe.targets.c import frames
 from fieldscribe.targets.c.calls import Transfer
 from fieldscribe.targets.c.groups import Members, Part, StructView, facts_of, has_row, is_written_by_row
-from fieldscribe.targets.c.layout import called, hexadecimal, unsigned
 from fieldscribe.targets.c.point_views import GeneratedPoint
 from fieldscribe.targets.c.scope import HeaderScope, PointView
+from fieldscribe.targets.c.syntax import called, hexadecimal, unsigned
 from fieldscribe.targets.c.word_functions import is_plain_long, places_of
 from fieldscribe.targets.identifiers import Named, Owner
 from fieldscribe.text import c_comment, upper

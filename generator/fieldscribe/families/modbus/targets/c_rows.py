@@ -16,9 +16,9 @@ from fieldscribe.model import Device, Identification, Point
 from fieldscribe.model.device import WHOLE_WORD
 from fieldscribe.targets.c.calls import raw_of_words
 from fieldscribe.targets.c.header import identification_defines
-from fieldscribe.targets.c.layout import INLINE, function, hexadecimal, unsigned
 from fieldscribe.targets.c.point_views import GeneratedPoint
 from fieldscribe.targets.c.scope import HeaderScope, PointView
+from fieldscribe.targets.c.syntax import INLINE, function, hexadecimal, unsigned
 from fieldscribe.targets.identifiers import Named, Owner
 from fieldscribe.text import upper
 

@@ -8,9 +8,9 @@ from fieldscribe.families.uss.telegrams import READ_ELEMENT_TASK, READ_TASK, wri
 from fieldscribe.model import Code, Device, Point
 from fieldscribe.targets.c import frames
 from fieldscribe.targets.c.calls import Transfer
-from fieldscribe.targets.c.layout import hexadecimal
 from fieldscribe.targets.c.point_views import GeneratedPoint
 from fieldscribe.targets.c.scope import HeaderScope, PointView
+from fieldscribe.targets.c.syntax import hexadecimal
 from fieldscribe.targets.c.word_functions import places_of
 from fieldscribe.targets.identifiers import Named, Owner
 from fieldscribe.text import c_comment, c_string, upper

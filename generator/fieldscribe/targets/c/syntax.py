@@ -12,25 +12,6 @@ from fieldscribe.model import Point
 from fieldscribe.resources import Render
 from fieldscribe.targets.placeholders import placeholders
 
-WIDTH = 120
-"""The longest line."""
-
-INLINE = "static inline"
-STATUS = "FIELDSCRIBE_STATUS"
-"""The heads of functions: of one that cannot fail, before its result type, and of one that returns a status."""
-
-_LAST = 100
-"""Added to the depth of a break after an opening bracket, so that it is the last choice."""
-
-
-_DEEPER = "    "
-_WHOLE = re.compile(r'"(?:[^"\\]|\\.)*"| ')
-"""A string, which must not be broken, or a space, where a line may be broken."""
-
-_SIGNS = re.compile(r'"[^"]*"|[()\[\]{}]|,(?= )| (?:\?|:|\|\||&&)(?= )')
-"""A string, a bracket, a comma or an operator."""
-
-
 # Types and literals.
 
 
@@ -113,6 +94,24 @@ def real(number: Fraction) -> str:
 
 
 # Functions and lines.
+
+
+WIDTH = 120
+"""The longest line."""
+
+INLINE = "static inline"
+STATUS = "FIELDSCRIBE_STATUS"
+"""The heads of functions: of one that cannot fail, before its result type, and of one that returns a status."""
+
+_LAST = 100
+"""Added to the depth of a break after an opening bracket, so that it is the last choice."""
+
+_DEEPER = "    "
+_WHOLE = re.compile(r'"(?:[^"\\]|\\.)*"| ')
+"""A string, which must not be broken, or a space, where a line may be broken."""
+
+_SIGNS = re.compile(r'"[^"]*"|[()\[\]{}]|,(?= )| (?:\?|:|\|\||&&)(?= )')
+"""A string, a bracket, a comma or an operator."""
 
 
 class Function(NamedTuple):
