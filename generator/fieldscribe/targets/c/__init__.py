@@ -155,7 +155,7 @@ def _of_point(view: PointView, scope: HeaderScope) -> Iterator[Named]:
     enum = point.named_numbers
     if view.enum is not None and enum is not None:
         whole = Owner("enum", names_of(enum, point, view.fields)[0])
-        yield whole, (view.enum.function, view.enum.table)
+        yield whole, (view.enum.lookup.name, view.enum.table)
         for entry, (name, _, _) in zip(enum.entries, view.enum.entries, strict=True):
             yield Owner("entry", entry.name, whole), (name,)
 

@@ -181,7 +181,7 @@ class Writer:
         """Yield the functions of a point whose scale depends on other points."""
         point = self.point
         if self.rule is not None and self.rule.text:
-            yield Function(self.rule.name, self.rule.text)
+            yield self.rule
         places, limits = point.decimals or 0, self._outer()
         counts = point.decimals is not None
         lifts = any(case.rule.offset for case in point.scale or ())

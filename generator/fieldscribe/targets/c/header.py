@@ -156,7 +156,7 @@ def _aliases(view: PointView, old: AliasView, scope: HeaderScope) -> Iterator[Al
     enum = point.named_numbers
     if view.enum is not None and enum is not None and enum.was:
         before = enum.was[point.was.index(old.was)]
-        yield old._replace(old=f"{scope.prefix}_{before}_name", new=view.enum.function, sort="FUNCTION")
+        yield old._replace(old=f"{scope.prefix}_{before}_name", new=view.enum.lookup.name, sort="FUNCTION")
         for entry, (new, _, _) in zip(enum.entries, view.enum.entries, strict=True):
             yield old._replace(old=f"{scope.upper}_{upper(before)}_{upper(entry.name)}", new=new, sort="NUMBER")
 

@@ -9,8 +9,8 @@ from fieldscribe.arithmetic.words import INT64, ends_without
 from fieldscribe.lowered import Operand, Rule
 from fieldscribe.model import Interval, Limit, Point
 from fieldscribe.targets.c.scales import linear
-from fieldscribe.targets.c.scope import HeaderScope, PointFields, RuleView
-from fieldscribe.targets.c.syntax import bare, float_order, function, hexadecimal, raw_type, signed, unsigned
+from fieldscribe.targets.c.scope import HeaderScope, PointFields
+from fieldscribe.targets.c.syntax import Function, bare, float_order, function, hexadecimal, raw_type, signed, unsigned
 
 _TABLE = 3
 """From this many ranges on a table is used; fewer are tested one by one."""
@@ -142,7 +142,7 @@ def bracketed(test: str) -> str:
     return test if test.startswith("(") and " && " not in test and " || " not in test else f"({test})"
 
 
-def rule_view(point: Point, scope: HeaderScope) -> RuleView:
+def rule_function(point: Point, scope: HeaderScope) -> Function:
     """Return the function that gives the rule of a point; points whose rule needs one point of a type share it."""
     names = point.scale_arguments
     parameters = scope.parameters(point, names)
@@ -151,8 +151,7 @@ def rule_view(point: Point, scope: HeaderScope) -> RuleView:
     body = f"return {_rule_of(point, scope)};"
     content = f"({', '.join(parameters)}) {body}"
     name = scope.named_after_first(point.item, "rule", content)
-    text = function("static inline fieldscribe_rule", name, parameters, body).text
-    return RuleView(name, text)
+    return function("static inline fieldscribe_rule", name, parameters, body)
 
 
 def name_shared(points: Sequence[Point], scope: HeaderScope) -> None:
@@ -161,7 +160,7 @@ def name_shared(points: Sequence[Point], scope: HeaderScope) -> None:
     for point in sorted(filter(has_ranges_table, points), key=by_rank):
         ranges_table(point, scope)
     for point in sorted([point for point in points if point.form == "scaled" and point.scale_arguments], key=by_rank):
-        rule_view(point, scope)
+        rule_function(point, scope)
 
 
 def _rule_of(point: Point, scope: HeaderScope) -> str:

@@ -21,9 +21,9 @@ from fieldscribe.targets.c.declarations import (
     range_words,
     value_defines,
 )
-from fieldscribe.targets.c.limits import has_ranges_table, name_shared, ranges_table, rule_view
+from fieldscribe.targets.c.limits import has_ranges_table, name_shared, ranges_table, rule_function
 from fieldscribe.targets.c.scales import Scaled
-from fieldscribe.targets.c.scope import EnumView, HeaderScope, PointFields, PointView, RuleView
+from fieldscribe.targets.c.scope import EnumView, HeaderScope, PointFields, PointView
 from fieldscribe.targets.c.syntax import INLINE, WIDTH, Function, bare, filled, function, hexadecimal, raw_type, signed
 from fieldscribe.targets.c.word_functions import (
     bits_functions,
@@ -170,7 +170,7 @@ def point_view(point: Point, fields: PointFields, scope: HeaderScope, scale: Sca
         tables=tuple(_tables(point, name, scope)),
         struct=struct,
         members=tuple((raw_type(scope.points[member]), f"{member}_raw") for member in members),
-        rule=_first_rule_view(point, scope) if shape == "ruled" else None,
+        rule=_first_rule(point, scope) if shape == "ruled" else None,
         shape=shape,
         raw_type=raw_type(point),
         special=special,
@@ -184,8 +184,8 @@ def names_of(enum: Enum, point: Point, fields: PointFields) -> tuple[str, str]:
     return (fields.item, fields.macro) if enum.name == point.item else (enum.name, upper(enum.name))
 
 
-def _first_rule_view(point: Point, scope: HeaderScope) -> RuleView:
-    rule = rule_view(point, scope)
+def _first_rule(point: Point, scope: HeaderScope) -> Function:
+    rule = rule_function(point, scope)
     return rule if scope.is_first(point.item, rule.name) else rule._replace(text="")
 
 
@@ -264,7 +264,6 @@ def _enum_view(enum: Enum, point: Point, fields: PointFields, scope: HeaderScope
         fits_int=all(-(1 << 15) <= entry.raw < 1 << 15 for entry in enum.entries),
         table=table,
         names=tuple(_table(f"static const {_TABLES[form]} {table}[]", list(_rows(named, form)))),
-        function=lookup,
         lookup=_lookup(lookup, table, value_type(point), form),
     )
 
@@ -289,7 +288,7 @@ def _table(declaration: str, rows: list[str]) -> list[str]:
     return [line] if len(line) <= WIDTH else [f"{declaration} = {{", *filled(rows, ", ", "    "), "};"]
 
 
-def _lookup(name: str, table: str, kind: str, form: str) -> str:
+def _lookup(name: str, table: str, kind: str, form: str) -> Function:
     rows = f"{table}, FIELDSCRIBE_COUNT({table})"
     number = "(raw <= (uint64_t)INT64_MAX) ? (int64_t)raw : -1" if kind == "uint64_t" else "raw"
     if form == "wide":
@@ -300,7 +299,7 @@ def _lookup(name: str, table: str, kind: str, form: str) -> str:
         body = f"(raw <= (uint64_t)INT32_MAX) ? fieldscribe_name_of({rows}, (int64_t)raw) : NULL"
     else:
         body = f"fieldscribe_name_of({rows}, raw)"
-    return function(f"{INLINE} const char *", name, (f"{kind} raw",), f"return {body};").text
+    return function(f"{INLINE} const char *", name, (f"{kind} raw",), f"return {body};")
 
 
 def _flag_function(flag: Flag, point: Point, name: str) -> Function:

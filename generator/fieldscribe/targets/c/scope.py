@@ -12,7 +12,7 @@ from typing import NamedTuple
 from fieldscribe.lowered import Lowered, lower
 from fieldscribe.model import Device, Flag, Point
 from fieldscribe.targets.c.scales import Scaled
-from fieldscribe.targets.c.syntax import raw_type
+from fieldscribe.targets.c.syntax import Function, raw_type
 from fieldscribe.text import upper
 
 
@@ -144,8 +144,7 @@ class EnumView(NamedTuple):
     fits_int: bool
     table: str
     names: tuple[str, ...]
-    function: str
-    lookup: str
+    lookup: Function
 
 
 class CodesView(NamedTuple):
@@ -156,20 +155,14 @@ class CodesView(NamedTuple):
     functions: tuple[str, ...]
 
 
-class RuleView(NamedTuple):
-    """The function that gives the rule of a scale, and its text if no earlier point has it."""
-
-    name: str
-    text: str
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class PointView:
     """A generated point; or the first of several with the same text, whose fields are then placeholders.
 
     `shared_values` are the macros of shared enums of flags that no earlier point has, each with a flag that has them.
     `tables` are declarations of arrays with their rows. `struct` holds the raw numbers of other points, if functions
-    need several; `members` are its members if no earlier point has it. `shape` is the form of the functions: `plain`,
+    need several; `members` are its members if no earlier point has it. `rule` is the function that gives the rule of a
+    scale, without a text if an earlier point has it. `shape` is the form of the functions: `plain`,
     `scaled`, `ruled`, `float`, `text` or `digits`. `special` is what the functions of its special codes begin with,
     empty without codes; `codes` are these if no earlier point has them. `scale` has the expressions of a scale without
     run-time factors.
@@ -185,7 +178,7 @@ class PointView:
     tables: tuple[tuple[str, tuple[str, ...]], ...]
     struct: str
     members: tuple[tuple[str, str], ...]
-    rule: RuleView | None
+    rule: Function | None
     shape: str
     raw_type: str
     special: str
