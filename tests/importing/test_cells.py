@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 from fieldscribe.importing import cells
@@ -142,54 +143,7 @@ READERS: dict[str, Callable[[str], object]] = {
     "space": cells.space_in,
     "reserved": cells.is_reserved,
 }
-WORDS = """\
-access | r | r, RO, r/o, Read, read only, read-only, nur lesen, Lesen, l, get
-access | w | w, wo, W/O, write, write only, write-only, Schreiben, nur schreiben, set
-access | rw | rw, R/W, w/r, wr, read/write, Read and Write, readwrite, lesen/schreiben, l/s, R&W
-access | none | -, —, –, none, n/a
-access | None | perhaps,
-type | u16 | UINT16, uint, ushort, word, Wort, unsigned, unsigned16, unsigned int, 16bit, u16
-type | s16 | Int16, Int_16, sint16, i16, signed, signed16, short, signed short, s16
-type | u32 | Unsigned 32 bit, uint32, udint, DWORD, Doppelwort, ulong, unsigned long, u32
-type | s32 | int32, sint32, i32, dint, signed long, signed32, s32
-type | u64 | u64, uint64, ulint, unsigned64
-type | s64 | s64, int64, lint, signed64
-type | f32 | f32, float, float32, real, single, ieee754, IEEE float, real32
-type | f64 | f64, double, float64, lreal
-type | bit | bit, BOOL, Boolean, binary
-type | u8 | u8, uint8, byte, usint, uchar
-type | s8 | s8, int8, SINT
-type | None | INT, BCD,
-bits | 0 | 0, 0-0
-bits | 3 | 3, Bit 3
-bits | 15 | 15
-bits | 3..2 | Bits 3-2, Doppelbit 2–3, 2..3, 3:2, 2 + 3, 3/2, 2 to 3, 2 bis 3
-bits | None | 16, 99, 3-16, 1-2-3, Word,
-unit | h | Std, Stunde, Stunden, hours, hour, hrs
-unit | s | Sek, Sekunde, Sekunden, seconds, second, sec
-unit | min | Minuten, Minute, minutes
-unit | ms | msec, Millisekunden
-unit | d | Tage, days
-unit | % | Prozent, percent
-unit | ° | Grad
-unit | Hz | hz, [Hz], (Hz.)
-unit | kHz | khz
-unit | V | Volt
-unit | A | Ampere, amps
-unit | W | Watt
-unit | rpm | U/min
-unit | 1/min | 1/min
-unit | °C | °C, [°C]
-unit || sacks,
-space | coil | Coils, coil, 0x, 0xxxx, FC1, fc 01
-space | discrete | Discrete Inputs, Diskret, 1x, Status input, FC02, fc2
-space | input | Input register, Eingangsregister, 3x, 4h read input, Input, FC04
-space | holding | Holding, Halteregister, 4x, 4xxxx, FC 3
-space | parameter | ID, PNU, Parameter-Nr., Parameteradresse, parameter number
-space | None | Object, coiled, FC5,
-reserved | True | Reserved, reserviert, (nicht belegt), nicht benutzt, Not used, Spare., frei, internal
-reserved | False | reserved power, internal fan,
-"""
+WORDS = Path(__file__).with_name("words.txt").read_text("utf-8")
 """Who reads them, what they mean, and the words; nothing between commas is an empty cell."""
 
 
