@@ -203,14 +203,22 @@ FIELDSCRIBE_ONCE void fieldscribe_is_value(fieldscribe_vector *v, const fieldscr
         (void)fieldscribe_exchange(v, 0U, &request, words, &reply);                              \
     }
 
+/* The words of a point are in process data where its address says, whatever the link has. */
+#define FIELDSCRIBE_LIES_IN(frame, way, macro)                                                   \
+    if (fieldscribe_asks(v, "place")) {                                                          \
+        fieldscribe_agree(v, (frame).way.position == macro##_ADDRESS);                           \
+        fieldscribe_agree(v, (frame).way.words == (frame).layout->words);                        \
+    }
+
 /* The same without a telegram: one or two words at their place; the others are unchanged. */
 #define FIELDSCRIBE_PUT(frame, kind, macro, count)                                               \
+    FIELDSCRIBE_LIES_IN(frame, sent, macro)                                                      \
     if (fieldscribe_asks(v, "words") || fieldscribe_asks(v, "bits")) {                           \
         const bool part = fieldscribe_asks(v, "bits");                                           \
         uint16_t words[count];                                                                   \
         uint16_t *const own =                                                                    \
             fieldscribe_uss_words_sent(&(frame).sent, words, macro##_ADDRESS + (frame).layout->words); \
-        fieldscribe_agree(v, (frame).sent.words == (frame).layout->words && fieldscribe_uss_words_sent( \
+        fieldscribe_agree(v, fieldscribe_uss_words_sent(                                         \
             &(frame).sent, words, macro##_ADDRESS + (frame).layout->words - 1U) == NULL);        \
         fieldscribe_fill(words, sizeof words);                                                   \
         own[0] = part ? (uint16_t)fieldscribe_bits(v, "word") : 0U;                              \
@@ -225,6 +233,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_value(fieldscribe_vector *v, const fieldscr
             sizeof words - (macro##_ADDRESS + (frame).layout->words) * sizeof words[0]);                 \
     }
 #define FIELDSCRIBE_TAKE(frame, kind, macro, count)                                              \
+    FIELDSCRIBE_LIES_IN(frame, heard, macro)                                                     \
     if (fieldscribe_asks(v, "words") || fieldscribe_asks(v, "bits")) {                           \
         uint16_t words[count];                                                                   \
         fieldscribe_fill(words, sizeof words);                                                   \
@@ -233,7 +242,7 @@ FIELDSCRIBE_ONCE void fieldscribe_is_value(fieldscribe_vector *v, const fieldscr
         } else {                                                                                 \
             (void)fieldscribe_numbers(v, "words", words + macro##_ADDRESS, (frame).layout->words);       \
         }                                                                                        \
-        fieldscribe_agree(v, (frame).heard.words == (frame).layout->words && fieldscribe_uss_words_heard( \
+        fieldscribe_agree(v, fieldscribe_uss_words_heard(                                        \
             &(frame).heard, words, macro##_ADDRESS + (frame).layout->words - 1U) == NULL);       \
         fieldscribe_taken_##kind(v, (frame).layout,                                              \
             fieldscribe_uss_words_heard(&(frame).heard, words, macro##_ADDRESS + (frame).layout->words)); \
