@@ -12,7 +12,7 @@ import importlib
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cached_property
-from pathlib import Path, PurePath
+from pathlib import Path
 from types import CodeType
 from typing import Any
 
@@ -22,7 +22,7 @@ from mutants.children import StoppedError, in_child
 from mutants.importing import compiled, use
 from mutants.judges import KILLED, LEFT_OUT, ROOT, SURVIVED, Verdict
 from mutants.noticing import TARGETS, FileOfTests, Witness, compiled_to, measured_output, measured_tests, run_tests
-from mutants.rooms import HOUSE, MODULE, place_of, room_of
+from mutants.rooms import HOUSE, MODULE, place_of
 from mutants.sources import Mutant
 
 TESTED = 12.0
@@ -84,8 +84,11 @@ class GeneratorJudge:
         if _PROGRAM in mutant.text:
             self._program.write_text(mutant.text, "utf-8")
             self._programs, place = {str(path): str(self._program)}, f"{mutant.path}::{MODULE}"
-        of_room = self._noticed(codes, mutant.path, place, self.files(ROOT / "tests" / mutant.kind), [])
-        by = of_room or self._noticed(codes, mutant.path, place, self.files(ROOT / "tests"), self.outputs)
+        of_room = self.files(ROOT / "tests" / mutant.kind)
+        by = self._noticed(codes, mutant.path, place, of_room, [])
+        if not by:
+            others = [file for file in self.files(ROOT / "tests") if file not in of_room]
+            by = self._noticed(codes, mutant.path, place, others, self.outputs)
         self._programs = {}
         return Verdict(LEFT_OUT, by) if by == IMPORT else Verdict(KILLED if by else SURVIVED, by)
 
@@ -116,12 +119,10 @@ class GeneratorJudge:
 
     def chosen(self, place: str, files: Sequence[FileOfTests]) -> dict[Path, list[str]]:
         """Return the tests to run, by file, within the time limit: those that enter few functions first."""
-        module, _, function = place.partition("::")
-        of_room = "" if function else f"tests/{room_of(PurePath(module).parts[1:])}/"
         known = [(file, test) for file in files for test in entering(file, place) if self._may_judge(test)]
         found: dict[Path, list[str]] = {}
         left = TESTED
-        for file, test in sorted(known, key=lambda one: _order(one[1], of_room)):
+        for file, test in sorted(known, key=lambda one: (len(one[1].enters), one[1].seconds)):
             cost = test.seconds + (0 if file.path in found else STARTED)
             if cost <= left:
                 left -= cost
@@ -161,10 +162,6 @@ class GeneratorJudge:
             if not self.sound[name]:
                 print(f"{name} fails alone without a change, so it is left out")
         return self.sound[name]
-
-
-def _order(test: Witness, first: str) -> tuple[bool, int, float]:
-    return not test.name.startswith(first), len(test.enters), test.seconds
 
 
 def entering(file: FileOfTests, place: str) -> Sequence[Witness]:

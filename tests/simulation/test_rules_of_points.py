@@ -27,7 +27,7 @@ def line_of(device: Path = DEVICE, **settings: Any) -> Line:
     return line
 
 
-def device_of(**settings: object) -> SimulatedDevice:
+def device_of(**settings: Any) -> SimulatedDevice:
     return line_of(**settings).core.devices[0]
 
 
@@ -209,7 +209,7 @@ def test_a_device_of_a_bench(settings: dict[str, object], reads: dict[int, str],
         ({"refusals": 3}, "`refusals` is a mapping"),
     ],
 )
-def test_wrong_settings(settings: dict[str, object], message: str) -> None:
+def test_wrong_settings(settings: dict[str, Any], message: str) -> None:
     with pytest.raises(UnclearError) as error:
         line_of(**settings)
     assert message in error.value.message
