@@ -341,6 +341,21 @@ def test_a_unit_whose_answer_comes_late_is_asked_once_more(faults: str, text: st
     assert re.match(text, done.out), done.out
 
 
+@pytest.mark.parametrize(
+    ("fault", "text"),
+    [
+        ("function x1", "unit 1  an answer that is damaged: .*the reply is to function "),
+        ("cut 9 x1", "unit 1  an answer that is damaged: .*9 bytes came "),
+        ("unit x4", "unit 1  an answer that is damaged: .*unit 2 answered instead of 1"),
+        ("silent x1", "no unit answers"),
+    ],
+)
+def test_a_unit_with_a_wrong_answer_answers(fault: str, text: str, drive: Simulated, on_line: Run) -> None:
+    drive.fault(fault)
+    done = on_line("scan", "hitachi_l200", "--units", "1-2")
+    assert re.fullmatch(f"{text}.*\n", done.out), done
+
+
 def test_monitor_goes_on_after_a_lost_answer(drive: Simulated, on_line: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     rounds = iter(range(9))
 

@@ -43,6 +43,8 @@ from fieldscribe.text import shortened, upper
 
 __all__ = ["Answer", "AnyDevice", "Connection", "FieldscribeError", "Scanner", "advice", "read_units"]
 
+_OF_OTHERS = frozenset({"exception", "wrong_unit", "wrong_transaction"})
+"""The statuses of answers that a gateway, or another unit, gave."""
 _SETTINGS = {"bad_unit": "give --unit", "bad_framing": "take another kind of line"}
 
 
@@ -143,7 +145,8 @@ class Scanner:
             answer = self._answer(unit)
             if answer.is_of_another and silent is not None:
                 again = self._answer(silent)
-                yield again if again.answers else Answer(silent, True, "it answers late: try a longer --timeout")
+                late = Answer(silent, True, "it answers late: try a longer --timeout")
+                yield again._replace(answers=True) if again.answers or again.is_of_another else late
                 answer = self._answer(unit)
             yield answer
             silent = None if answer.answers else unit
@@ -157,11 +160,11 @@ class Scanner:
             return Answer(unit, True, f"another device: {error}", True)
         except (LineError, RequestError):
             raise
-        except NoReplyError:
-            return Answer(unit, False)
+        except NoReplyError as error:
+            return Answer(unit, bool(error.received), _remark(error))
         except FieldscribeError as error:
-            is_late = error.status == "wrong_unit"
-            return Answer(unit, not error.lost or bool(error.received), _remark(error), is_of_another=is_late)
+            answers = not error.lost or error.status not in _OF_OTHERS
+            return Answer(unit, answers, _remark(error), is_of_another=error.status == "wrong_unit")
         finally:
             self.requests += device.traffic.requests
 
