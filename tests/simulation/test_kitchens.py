@@ -58,6 +58,8 @@ def test_what_lies_after_counted_elements_moves_with_the_count(counts: tuple[int
             device.values.update({"curve_points": points, "curve_count": counts[1]})
             client = made(line, 1, slot=1, half=0)
             assert client.find_blocks()[705] == (40024, 2 * points + counts[1] + 6)
+            counted = range(40028, 40028 + 2 * points + counts[1])
+            assert device.device.read(("holding", 0), counted) == [0] * len(counted)
             assert (client.curve_time.read(), client.curve_access.read(), client.level.read()) == (4711, 1, 12.5)
             client.curve_time.write(99)
             assert device.values["curve_time"] == 99
