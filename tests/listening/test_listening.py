@@ -204,6 +204,7 @@ def test_telegrams(listen: Listen) -> None:
     ("devices", "capture", "words", "expected"),
     [
         ("hitachi_l200", "hello\n" * 5, (), "it has no frame"),
+        ("woodward_mpu2s", '{"request": "0000033fff0100c90000ffc8"}\n', (), "traces of `simulate` without CAN"),
         ("hitachi_l200", classic([b"\1"])[:-1], (), "cut off within packet 1"),
         ("hitachi_l200 siemens_mm4", logged([ASKED]), (), "devices of modbus and uss are not on one line"),
         ("hitachi_l200=x", "", (), "a unit is a number"),

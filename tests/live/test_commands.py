@@ -150,6 +150,7 @@ def answers(*texts: str) -> io.StringIO:
         ("restore . --yes", 2, "^$", "it is a folder: "),
         ("scan --units 1-2", 0, "^unit 1  holding 0x0000: .* exception 02h \\(illegal_data_address\\)\n$", "^$"),
         ("scan --units 2", 1, "^no unit answers\n$", "^$"),
+        ("scan --units=", 2, "^$", "`` is no unit"),
         ("scan --units 5-2", 2, "^$", "units are 1 to 247, not `5-2`"),
         ("scan hitachi_l200 --units 1 -v", 0, "^unit 1  running = stopped", "1 request\n$"),
         (

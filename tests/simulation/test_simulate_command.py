@@ -159,6 +159,10 @@ def test_the_console_reads_writes_and_spoils() -> None:
         carry_out(bench, "quit")
 
 
+def test_a_trace_can_be_thrown_away(capsys: pytest.CaptureFixture[str]) -> None:
+    assert ends([L200, "--trace", os.devnull], capsys)[0] == 0
+
+
 def test_commands_come_from_a_file_too(tmp_path: Path) -> None:
     (tmp_path / "commands").write_text("set A020=60\nget A020\nget", "utf-8")
     command = [sys.executable, "-m", "fieldscribe", "simulate", L200, "--tcp", "0", "--for", "0"]

@@ -10,6 +10,7 @@ from contextlib import contextmanager, suppress
 from functools import partial
 from pathlib import Path
 from signal import SIGINT, SIGTERM
+from stat import S_ISREG
 from typing import Any, TextIO
 
 from fieldscribe.cli.common import (
@@ -165,7 +166,7 @@ async def _serve(bench: Bench, seconds: float | None, trace: TextIO | None) -> i
     """Serve the lines until a signal, `quit`, or the end of the time."""
     stop, loop = asyncio.Event(), asyncio.get_running_loop()
     servers = [await serve(line) for line in bench.lines]
-    if trace not in (None, sys.stdout) and trace.seekable():
+    if trace not in (None, sys.stdout) and S_ISREG(os.fstat(trace.fileno()).st_mode):
         trace.truncate(0)
     devices = [
         (device, server) for line, server in zip(bench.lines, servers, strict=True) for device in line.core.devices

@@ -110,7 +110,7 @@ class Answer(NamedTuple):
 def read_units(text: str | None, ends: tuple[int, int]) -> list[int]:
     """Return the unit numbers of a list such as `1-31,40`; all of a device without a list. Raises UnclearError."""
     units: dict[int, None] = {}
-    for part in (text or f"{ends[0]}-{ends[1]}").split(","):
+    for part in (f"{ends[0]}-{ends[1]}" if text is None else text).split(","):
         low, dash, high = part.strip().partition("-")
         numbers = [low, high if dash else low]
         if not all(number.isascii() and number.isdigit() and len(number) < 6 for number in numbers):
