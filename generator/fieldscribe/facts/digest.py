@@ -7,17 +7,14 @@ a change of data structures in the compiler nor an optional key that nobody uses
 import json
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
-from functools import partial
 from hashlib import sha256
 from operator import attrgetter
-from typing import Any, TypeAlias
+from typing import Any
 
 from fieldscribe.facts.devices import device_table
 from fieldscribe.facts.points import POINT
 from fieldscribe.facts.table import Context, Fact, FactTable, stated
 from fieldscribe.model import Device, Point
-
-FactsOfPoint: TypeAlias = Callable[[Point], dict[str, Any]]
 
 
 def with_digest(device: Device, plain: Device) -> tuple[Device, Device]:
@@ -59,10 +56,7 @@ def _points(device: Device, context: Context, facts: FactTable) -> Iterator[byte
             continue
         keys = [holder(point) for point in device.points]
         points = dict(zip(keys, device.points, strict=True))
-        facts_of: FactsOfPoint = partial(stated, table, context=context)
-        if shared == "shape":
-            facts_of = _facts_of_shapes(table, facts_of)
-        texts = {key: _canonical(facts_of(point)) for key, point in points.items()}
+        texts = {key: _canonical(stated(table, point, context)) for key, point in points.items()}
         yield b"".join(map(texts.__getitem__, keys))
     for fact in sorted(facts, key=attrgetter("key")):
         if not (fact.holder or fact.derived or (fact.for_people and context.for_code)):
@@ -78,20 +72,6 @@ _HOLDERS: Mapping[str, Callable[[Point], object]] = {
     "limits": lambda point: (id(point.allowed), id(point.shape)),
 }
 """What points share, and what of a point tells that two points have the same."""
-
-
-def _facts_of_shapes(table: FactTable, facts_of: FactsOfPoint) -> FactsOfPoint:
-    """Return `facts_of`, worked out once for each shape: its points differ in the name of the enum alone."""
-    known: dict[int, dict[str, Any]] = {}
-    has_name = any(fact.key == "enum_name" for fact in table)
-
-    def of_point(point: Point) -> dict[str, Any]:
-        if id(point.shape) not in known:
-            known[id(point.shape)] = facts_of(point)
-        facts = known[id(point.shape)]
-        return {**facts, "enum_name": point.enum_names[0]} if point.enum_names and has_name else facts
-
-    return of_point
 
 
 def _values(fact: Fact, device: Device, context: Context) -> list[Any]:

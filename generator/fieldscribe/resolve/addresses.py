@@ -4,13 +4,12 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from fractions import Fraction
-from typing import NamedTuple
 
 from fieldscribe.language.formula.normal import evaluate
 from fieldscribe.language.formula.parser import parse_expression
 from fieldscribe.language.formula.syntax import FormulaError, names
 from fieldscribe.language.nodes import Map, Seq
-from fieldscribe.language.numbers import parse_number, plain_number
+from fieldscribe.language.numbers import parse_number
 from fieldscribe.language.suggestions import suggest_interval
 from fieldscribe.model import NOWHERE, Message, Place
 from fieldscribe.resolve.bases import last_address
@@ -41,20 +40,6 @@ _Line = tuple[int, int]
 """Slope and offset of a printed number as a function of the address."""
 
 
-class _Layout(NamedTuple):
-    """How points of one kind lie in a space: the number of words, their order, and the last possible first address.
-
-    `last` is -1 if the place of each point must be worked out from its row.
-    """
-
-    words: int
-    low_first: bool
-    last: int
-
-
-_FROM_ROW = _Layout(0, False, -1)
-
-
 class Places:
     """Works out the places of the points of one device."""
 
@@ -65,21 +50,13 @@ class Places:
         bus = scope.bus
         self._order = None if bus is None else bus.get("words")
         self._lines: dict[int, Mapping[str, _Line]] = {}
-        self._layouts: dict[int, _Layout] = {}
         self._wrong_rules: set[int] = set()
 
-    def of(self, facts: PointFacts, encoding: Encoding, kind: int) -> tuple[Place, Place | None]:
+    def of(self, facts: PointFacts, encoding: Encoding) -> tuple[Place, Place | None]:
         """Return the place of a point, and the place where it is written if that differs.
 
-        The first has no addresses if the manual prints none, or after a finding. `kind` is the same for points that
-        differ in their numbers only: if `at` is a plain number, the layout of the kind decides the rest.
+        The first has no addresses if the manual prints none, or after a finding.
         """
-        layout = self._layouts.get(kind) or self._layouts.setdefault(kind, self._layout(facts, encoding))
-        at = plain_number(facts.get("at"))
-        alone = facts.element is None and facts.use is None and facts.layer("write_at") is None
-        if at is not None and alone and 0 <= at <= layout.last:
-            words = (at,) if layout.words == 1 else tuple(range(at, at + layout.words))
-            return Place(words[::-1] if layout.low_first else words, self._numbers(facts, at)), None
         place = self._place(facts, encoding, "at")
         if not place.addresses or facts.get("write_at") is None:
             return place, None
@@ -112,14 +89,6 @@ class Places:
         """
         numbers, carried = self._numbers(facts, address), self._words_per_frame(facts)
         return {"mux": address // carried, "word": address % carried + 1, **numbers} if carried else numbers
-
-    def _layout(self, facts: PointFacts, encoding: Encoding) -> _Layout:
-        group = facts.group
-        if encoding.type == "text" or encoding.space in KEY_OF or "addressing" in group or group.broken or facts.failed:
-            return _FROM_ROW
-        words = self._count(facts, encoding)
-        last = self._last_address(facts)
-        return _Layout(words, low_first(facts, "words", self._order, encoding.type), last - words + 1)
 
     def _place(self, facts: PointFacts, encoding: Encoding, key: str) -> Place:
         """Return the place that `key` gives: the word with the highest bits or the first characters comes first."""

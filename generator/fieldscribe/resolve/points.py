@@ -70,7 +70,7 @@ class _Points:
         """Return the point that has these facts."""
         get, shape = facts.get, found.shape
         code, old_names = get("code"), get("was")
-        place, write_place = self._places.of(facts, encoding, kind)
+        place, write_place = self._places.of(facts, encoding)
         terms = self._terms.of(kind, facts, partial(self._terms_of, encoding, found), _are_general)
         default, default_raw = self._default(facts, kind, shape)
         return Point(
