@@ -12,14 +12,14 @@ from typing import Any
 
 import pytest
 from fieldscribe.cli import main
-from fieldscribe.diagnostics import Report
+from fieldscribe.diagnostics import Diagnostic, Report
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.language.key_tables import json_schema, keys_markdown, schema_text
 from fieldscribe.language.keys import TABLE, keys_of
 from fieldscribe.language.keys.places import BEHAVIOUR, DEVICE, PART
 from fieldscribe.language.load import load
 from fieldscribe.language.nodes import Map, Seq, SourceFile, Value, read_source
-from fieldscribe.language.shape import check_shape, compiled_pattern
+from fieldscribe.language.shape import check_of, check_shape, compiled_pattern
 from jsonschema import Draft7Validator, validators
 from support.descriptions_as_values import WHOLES, as_yaml, changed, nodes
 from support.places import ROOT
@@ -186,19 +186,19 @@ def test_frames_in_examples_have_their_own_checksum() -> None:
     assert crc16(bytes.fromhex("05 06 10 28 01 F4")).to_bytes(2, "little") == bytes.fromhex("0C 91")
 
 
-def test_findings_do_not_depend_on_what_was_met_before(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Plans are made for lists of keys and used again: a file has the findings that it has as the first of a run."""
-    from fieldscribe.language import shape
+def test_findings_do_not_depend_on_what_was_met_before() -> None:
+    """Checks are made for the keys that are met, and used again: a file has the findings of the first file of a run."""
 
-    for file in sorted((ROOT / "tests" / "bad").glob("*.yaml")):
-        source = read_source(file, Report())
-        if source is None:
-            continue
-        reports = Report(), Report()
-        for report, made in zip(reports, (shape._checks, {}), strict=True):
-            monkeypatch.setattr(shape, "_checks", made)
-            for root in load(source, Report()):
-                if root is not None:
-                    check_shape(root, DEVICE if "device" in root else PART, report)
-            monkeypatch.undo()
-        assert reports[0].findings == reports[1].findings, file.name
+    def findings_of(source: SourceFile) -> tuple[Diagnostic, ...]:
+        report = Report()
+        for root in load(source, Report()):
+            if root is not None:
+                check_shape(root, DEVICE if "device" in root else PART, report)
+        return report.findings
+
+    files = sorted((ROOT / "tests" / "bad").glob("*.yaml"))
+    sources = [source for file in files if (source := read_source(file, Report())) is not None]
+    in_turn = [findings_of(source) for source in sources]
+    for source, findings in zip(sources, in_turn, strict=True):
+        check_of.cache_clear()
+        assert findings_of(source) == findings, source.name

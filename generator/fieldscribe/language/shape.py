@@ -9,8 +9,8 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from decimal import Decimal
-from functools import lru_cache
-from typing import Any, NamedTuple, Protocol
+from functools import cache, cached_property, lru_cache, partial
+from typing import Any, TypeAlias
 
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.hints import form_hint, key_hint, nearest, quoted, type_hint, value_text
@@ -21,28 +21,18 @@ from fieldscribe.language.suggestions import reversed_hint, value_hint
 from fieldscribe.schema_types import Items, Kind, Place, Text, ValueShape, Whole, says_yes_or_no
 
 _NAMING = ("name", "code", "id")
-_MOST_PLANS = 1000
 _YES_NO = {"yes": True, "no": False}
+_SHARED = frozenset((Map, Seq))
+"""The types of values that aliases can repeat with something inside."""
 
+Check: TypeAlias = Callable[[Any, Any, Any, Report], bool]
+"""Checks a value of one Python type.
 
-class Check(Protocol):
-    """Checks values of one Python type.
+It is called with the value, the mapping or list that holds it, its key or index there (None for the whole file), and
+the report. It returns True if the value is right; else there is a finding. What is broken inside is dropped from it.
+"""
 
-    Nearly all values are right, so `fits` is asked first: it may be wrong only by saying no. Then the check itself is
-    called with the value, the mapping or list that holds it, its key or index there (None for the whole file), and the
-    report.
-    """
-
-    @property
-    def fits(self) -> Callable[[Any], Any]:
-        """The quick test."""
-
-    def __call__(self, value: Any, holder: Map | Seq, at: Any, report: Report, /) -> bool:
-        """Return True if the value is right; else there is a finding. What is broken inside it is dropped from it."""
-
-
-_ANY: dict[type, Check | None] = dict.fromkeys((Map, Seq, int, Decimal, bool, str, type(None)))
-_checks: dict[ValueShape, ShapeCheck] = {}
+_ANY: Mapping[type, Check | None] = dict.fromkeys((Map, Seq, int, Decimal, bool, str, type(None)))
 
 
 def check_shape(value: Map, place: Place, report: Report) -> bool:
@@ -50,14 +40,9 @@ def check_shape(value: Map, place: Place, report: Report) -> bool:
     return not report.full and check_of(place.shape)(value, value, None, report)
 
 
+@cache
 def check_of(shape: ValueShape) -> ShapeCheck:
     """Return the check for a shape; it is built once."""
-    if shape not in _checks:
-        _checks[shape] = _build(shape)
-    return _checks[shape]
-
-
-def _build(shape: ValueShape) -> ShapeCheck:
     checks: dict[type, Check | None] = {}
     for kind in shape.kinds:
         for python_type, check in _by_python_type(kind):
@@ -70,12 +55,12 @@ def _by_python_type(kind: Kind) -> Iterator[tuple[type, Check | None]]:
     if isinstance(kind, Place):
         yield Map, MappingCheck(kind)
     elif isinstance(kind, Items):
-        yield Seq, ListCheck(check_of(kind.item), kind.least)
+        yield Seq, partial(_check_list, kind)
     elif isinstance(kind, Text):
-        yield str, TextCheck(kind) if kind.choices or kind.longest or kind.form else None
+        yield str, partial(_check_text, kind) if kind.choices or kind.longest or kind.form else None
     elif isinstance(kind, Whole):
         bounded = kind.choices or kind.least is not None or kind.greatest is not None
-        yield int, NumberCheck(kind) if bounded else None
+        yield int, partial(_check_number, kind) if bounded else None
     else:
         yield from dict.fromkeys(kind.types).items()
 
@@ -93,20 +78,11 @@ class ShapeCheck:
     the number, or by true or false.
     """
 
-    __slots__ = ("checks", "notation", "quick", "shape", "yes_no")
+    __slots__ = ("checks", "notation", "shape", "yes_no")
 
     def __init__(self, shape: ValueShape, checks: Mapping[type, Check | None]) -> None:
         self.shape, self.checks, self.yes_no = shape, checks, says_yes_or_no(shape)
         self.notation = int in checks and str not in checks
-        self.quick = {kind: check for kind, check in checks.items() if not (self.yes_no and kind is str)}
-
-    def fits(self, value: Any) -> Any:
-        """Return a true value if the value is right as it is."""
-        kind = type(value)
-        if kind not in self.quick:
-            return False
-        check = self.quick[kind]
-        return check is None or check.fits(value)
 
     def __call__(self, value: Any, holder: Map | Seq, at: Any, report: Report) -> bool:
         """Return True if the value is right; a `Check`."""
@@ -124,186 +100,139 @@ class ShapeCheck:
             report.error("wrong-type", message, holder.span(at), hint)
             return False
         check = self.checks[type(value)]
-        return check is None or check(value, holder, at, report)
-
-
-class TextCheck:
-    """Checks a text: its choices, length and form."""
-
-    def __init__(self, kind: Text) -> None:
-        self.kind = kind
-        self.fits: Callable[[str], Any] = self._fits_first
-
-    def _fits_first(self, text: str) -> Any:
-        """Build the test when the first such text comes: patterns take long to compile."""
-        choices, longest, form = self.kind.choices, self.kind.longest, self.kind.form
-        if choices:
-            self.fits = frozenset(choices).__contains__
-        elif form is None:
-            self.fits = lambda text: len(text) <= longest
-        else:
-            search = compiled_pattern(form.pattern).search
-            self.fits = (lambda text: len(text) <= longest and search(text)) if longest else search
-        return self.fits(text)
-
-    def __call__(self, value: str, holder: Map | Seq, at: Any, report: Report) -> bool:
-        """Return True if the text is right; a `Check`."""
-        if self.fits(value):
+        if check is None:
             return True
-        choices, longest, form = self.kind.choices, self.kind.longest, self.kind.form
-        if choices:
-            near, known = nearest(value, choices), ", ".join(choices)
-            hint = value_hint(at, value) or (f"did you mean `{near}`?" if near else f"write one of {known}")
-            report.error("wrong-choice", f"{quoted(value)} is none of {known}", holder.span(at), hint)
-        elif longest and len(value) > longest:
-            message = f"the text has {len(value)} characters, at most {longest} are allowed"
-            report.error("text-too-long", message, holder.span(at), "shorten it")
-        elif form is not None:
-            hint = value_hint(at, value) or form_hint(value, form)
-            report.error("wrong-form", f"{quoted(value)} is not {form.words}", holder.span(at), hint)
-        return False
+        if type(value) in _SHARED and value.uses is not None:
+            return _check_aliased(check, value, holder, at, report)
+        return check(value, holder, at, report)
 
 
-class NumberCheck:
-    """Checks a whole number: its choices and bounds."""
-
-    def __init__(self, kind: Whole) -> None:
-        self.kind = kind
-
-    def fits(self, number: int) -> bool:
-        """Return True if the number is right."""
-        kind = self.kind
-        if kind.choices:
-            return number in kind.choices
-        return (kind.least is None or number >= kind.least) and (kind.greatest is None or number <= kind.greatest)
-
-    def __call__(self, value: int, holder: Map | Seq, at: Any, report: Report) -> bool:
-        """Return True if the number is right; a `Check`."""
-        if self.fits(value):
+def _check_text(kind: Text, value: str, holder: Map | Seq, at: Any, report: Report) -> bool:
+    """Check the choices, the length and the form of a text; a `Check`."""
+    choices, longest, form = kind.choices, kind.longest, kind.form
+    if choices:
+        if value in choices:
             return True
-        choices, least, greatest = self.kind.choices, self.kind.least, self.kind.greatest
-        if choices:
-            known = ", ".join(map(str, choices))
-            message, hint = f"{value} is none of {known}", f"write {' or '.join(map(str, choices))}"
-        else:
-            bounds = f"at least {least}" if greatest is None else f"{least} to {greatest}"
-            message, hint = f"{value} is out of bounds: {bounds}", "correct the number"
-        report.error("wrong-choice", message, holder.span(at), hint)
+        near, known = nearest(value, choices), ", ".join(choices)
+        hint = value_hint(at, value) or (f"did you mean `{near}`?" if near else f"write one of {known}")
+        report.error("wrong-choice", f"{quoted(value)} is none of {known}", holder.span(at), hint)
+    elif longest and len(value) > longest:
+        message = f"the text has {len(value)} characters, at most {longest} are allowed"
+        report.error("text-too-long", message, holder.span(at), "shorten it")
+    elif form is None or compiled_pattern(form.pattern).search(value):
+        return True
+    else:
+        hint = value_hint(at, value) or form_hint(value, form)
+        report.error("wrong-form", f"{quoted(value)} is not {form.words}", holder.span(at), hint)
+    return False
+
+
+def _check_number(kind: Whole, value: int, holder: Map | Seq, at: Any, report: Report) -> bool:
+    """Check the choices and the bounds of a whole number; a `Check`."""
+    choices, least, greatest = kind.choices, kind.least, kind.greatest
+    if choices:
+        if value in choices:
+            return True
+        known = ", ".join(map(str, choices))
+        message, hint = f"{value} is none of {known}", f"write {' or '.join(map(str, choices))}"
+    else:
+        if (least is None or value >= least) and (greatest is None or value <= greatest):
+            return True
+        bounds = f"at least {least}" if greatest is None else f"{least} to {greatest}"
+        message, hint = f"{value} is out of bounds: {bounds}", "correct the number"
+    report.error("wrong-choice", message, holder.span(at), hint)
+    return False
+
+
+def _check_list(kind: Items, value: Seq, holder: Map | Seq, at: Any, report: Report) -> bool:
+    """Check each item of a list, and that there are enough; a `Check`."""
+    if len(value) < kind.least:
+        report.error("too-few", "the list is empty", holder.span(at), "fill it or leave the key out")
         return False
-
-
-class ListCheck:
-    """Checks a list: each item, and that there are at least `least`."""
-
-    def __init__(self, item: ShapeCheck, least: int) -> None:
-        self.item, self.least = item, least
-
-    def fits(self, value: Seq) -> bool:
-        """Return True if the list is right as it is."""
-        return value.uses is None and len(value) >= self.least and all(map(self.item.fits, value))
-
-    def __call__(self, value: Seq, holder: Map | Seq, at: Any, report: Report) -> bool:
-        """Return True if the list is right; a `Check`."""
-        if value.uses is not None:
-            return _check_aliased(self, value, holder, at, report)
-        if len(value) < self.least:
-            report.error("too-few", "the list is empty", holder.span(at), "fill it or leave the key out")
-            return False
-        broken = []
-        for index, element in enumerate(value):
-            if not self.item.fits(element) and not self.item(element, value, index, report):
-                broken.append(index)
-                if report.full:
-                    return False
-        for index in reversed(broken):
-            _remember_names(value[index], value.file.lost)
-            value.drop(index)
-        return len(value) >= self.least
-
-
-class Plan(NamedTuple):
-    """What to check in mappings with the same keys."""
-
-    entries: tuple[tuple[str, ShapeCheck | None], ...]
-    """Each key with the check of its value; None for an unknown key."""
-    missing: dict[str, str]
-    """The message for each key that is missing."""
-    complete: bool
-    """True if no key is missing and there are enough keys."""
+    check, broken = check_of(kind.item), []
+    for index, element in enumerate(value):
+        if not check(element, value, index, report):
+            broken.append(index)
+            if report.full:
+                return False
+    for index in reversed(broken):
+        _remember_names(value[index], value.file.lost)
+        value.drop(index)
+    return len(value) >= kind.least
 
 
 class MappingCheck:
-    """Checks a mapping; the checks of its values are built when the first such mapping comes."""
+    """Checks a mapping. The keys of its place are looked up when the first such mapping comes."""
 
     def __init__(self, place: Place) -> None:
         self.place = place
-        self.plans: dict[tuple[str, ...], Plan] = {}
+        self._checks: dict[str, ShapeCheck] = {}
 
-    def fits(self, value: Map) -> bool:
-        """Return True if such keys were met before, and the mapping is right as it is."""
-        plan = self.plans.get(tuple(value))
-        if plan is None or not plan.complete or value.uses is not None:
-            return False
-        for key, check in plan.entries:  # noqa: SIM110  # a generator would take longer, and this is asked often
-            if check is None or not check.fits(value[key]):
-                return False
-        return True
+    @cached_property
+    def _needed(self) -> Mapping[str, Mapping[str, str]]:
+        """The message for each key that must be there: always (under an empty key), or beside another key."""
+        always = {key: f"the key `{key}` is missing" for key in required(self.place)}
+        beside = {
+            key: {other: f"the key `{other}` is missing: `{key}` needs it" for other in others}
+            for key, others in needs(self.place).items()
+        }
+        return {"": always, **beside}
 
     def __call__(self, value: Map, holder: Map | Seq, at: Any, report: Report) -> bool:
         """Return True if the mapping is right; a `Check`."""
-        if value.uses is not None:
-            return _check_aliased(self, value, holder, at, report)
-        keys = tuple(value)
-        plan = self.plans.get(keys) or self._plan(keys)
-        broken = self._broken(plan, value, report)
-        if not broken and plan.complete:
+        missing = self._missing(value)
+        broken = self._broken(value, report)
+        complete = not missing and len(value) >= self.place.least
+        if not broken and complete:
             return True
         if report.full:
             return False
         deeper = {name for key in broken if isinstance(value[key], Map) for name in value[key]}
-        for key, message in plan.missing.items():
+        for key, message in missing.items():
             if key not in deeper:  # else it is nested a level too deep, and the finding there says so
                 report.error("missing-key", message, holder.span(at), f"add `{key}: …`")
         if len(value) < self.place.least:
             report.error("too-few", "the mapping is empty", holder.span(at), "fill it or leave the key out")
         for key in broken:
             self._drop(value, key, is_file=holder is value)
-        return plan.complete and len(value) >= self.place.least and not set(required(self.place)) & set(broken)
+        return complete and len(value) >= self.place.least and not set(required(self.place)) & set(broken)
 
-    def _broken(self, plan: Plan, value: Map, report: Report) -> list[str]:
+    def _missing(self, value: Map) -> dict[str, str]:
+        """Return the message for each key that is missing."""
+        missing: dict[str, str] = {}
+        for key, messages in self._needed.items():
+            if not key or key in value:
+                for needed, message in messages.items():
+                    if needed not in value:
+                        missing.setdefault(needed, message)
+        return missing
+
+    def _broken(self, value: Map, report: Report) -> list[str]:
         """Report the keys that are unknown or whose values are wrong, and return them."""
         broken: list[str] = []
-        for key, check in plan.entries:
+        for key, inner in value.items():
+            check = self._checks.get(key) or self._check_of(key)
             if check is None:
                 self._report_unknown(value, key, report)
-            elif check.fits(value[key]) or check(value[key], value, key, report):
+            elif check(inner, value, key, report):
                 continue
             broken.append(key)
             if report.full:
                 break
         return broken
 
-    def _plan(self, keys: tuple[str, ...]) -> Plan:
-        """Return the plan for these keys; it is kept for the next mapping that has the same."""
-        missing = {key: f"the key `{key}` is missing" for key in required(self.place) if key not in keys}
-        for key, others in needs(self.place).items():
-            for needed in others:
-                if key in keys and needed not in keys:
-                    missing.setdefault(needed, f"the key `{needed}` is missing: `{key}` needs it")
-        entries = tuple((key, self._check_of(key)) for key in keys)
-        plan = Plan(entries, missing, not missing and len(keys) >= self.place.least)
-        if len(self.plans) < _MOST_PLANS:
-            self.plans[keys] = plan
-        return plan
-
     def _check_of(self, key: str) -> ShapeCheck | None:
         """Return the check for the value of a key; None for an unknown key."""
         known = keys_of(self.place)
         if key in known:
-            return check_of(known[key].shape)
-        by_form = sorted(self.place.by_form.items(), key=lambda entry: entry[0] is forms.ANY)
-        shape = next((shape for form, shape in by_form if compiled_pattern(form.pattern).search(key)), None)
-        return None if shape is None else check_of(shape)
+            shape: ValueShape | None = known[key].shape
+        else:
+            by_form = sorted(self.place.by_form.items(), key=lambda entry: entry[0] is forms.ANY)
+            shape = next((shape for form, shape in by_form if compiled_pattern(form.pattern).search(key)), None)
+        if shape is None:
+            return None
+        self._checks[key] = check_of(shape)
+        return self._checks[key]
 
     def _report_unknown(self, value: Map, key: str, report: Report) -> None:
         known = [form for form in self.place.by_form if form is not forms.ANY]

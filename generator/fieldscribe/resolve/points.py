@@ -1,6 +1,5 @@
 """Builds the points of the model from their facts: places, shapes, limits, and what points of a group share."""
 
-from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
@@ -8,28 +7,25 @@ from typing import NamedTuple
 
 from fieldscribe.arithmetic.exact import float_of
 from fieldscribe.conditions import Condition
-from fieldscribe.language.keys import keys_of
-from fieldscribe.language.keys.places import SOURCE
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import number_in
 from fieldscribe.language.units import unit_hint
-from fieldscribe.model import Linear, Point, Shape, Source, Terms, Unit
+from fieldscribe.model import Linear, Point, Shape, Terms, Unit
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.bounds import Bounds
 from fieldscribe.resolve.bus import KEY_OF, Telegrams
 from fieldscribe.resolve.conditions import condition_of
 from fieldscribe.resolve.encodings import Encoding, Encodings
-from fieldscribe.resolve.memo import FactKeys, Memo, hashable
+from fieldscribe.resolve.memo import FactKeys, Memo
 from fieldscribe.resolve.point_facts import TO_END, PointFacts
 from fieldscribe.resolve.ranges import Ranges
 from fieldscribe.resolve.scales import IDENTITY, Scales
-from fieldscribe.resolve.scope import PLAIN, Scope, cited, first_line, source_from, titles
+from fieldscribe.resolve.scope import PLAIN, Scope, source_of, titles
 from fieldscribe.resolve.shapes import ShapeAndLimits, Shapes
 from fieldscribe.resolve.symbols import SymbolTable
 from fieldscribe.resolve.values import integer, number, pattern
 
 _MOST_NAMES = 12
-_CITING = {*keys_of(SOURCE), "source"}
 
 
 class ResolvedPoint(NamedTuple):
@@ -62,9 +58,7 @@ class _Points:
 
     def __init__(self, scope: Scope, scales: Scales, places: Places) -> None:
         self._scope, self._scales, self._places = scope, scales, places
-        self._sources: dict[tuple[int, ...], tuple[Mapping[str, object], Source]] = {}
         self._terms: Memo[Terms] = Memo(scope.report)
-        self._defaults: Memo[tuple[Fraction | None, int | None]] = Memo(scope.report)
 
     def point(self, facts: PointFacts, kind: int, encoding: Encoding, found: ShapeAndLimits) -> Point:
         """Return the point that has these facts."""
@@ -72,14 +66,14 @@ class _Points:
         code, old_names = get("code"), get("was")
         place, write_place = self._places.of(facts, encoding)
         terms = self._terms.of(kind, facts, partial(self._terms_of, encoding, found), _are_general)
-        default, default_raw = self._default(facts, kind, shape)
+        default, default_raw = _default_of(self._scope, facts, shape)
         return Point(
             facts.name,
             facts.variant,
             None if code is None else str(code),
             facts.title,
             titles(get("note")),
-            self._source(facts),
+            source_of(self._scope, *facts.layers, facts.group),
             place,
             write_place,
             shape,
@@ -94,26 +88,6 @@ class _Points:
             (),
             _enum_names(facts, shape),
         )
-
-    def _source(self, facts: PointFacts) -> Source:
-        """Return the source: usually that of the group, with the point's own line. What layers share is read once."""
-        nearest_layer, *others = facts.layers
-        key = (*map(id, others), id(facts.group))
-        known = self._sources.get(key)
-        if known is None:
-            citations = cited((*others, facts.group))
-            known = self._sources[key] = citations, source_from(self._scope, citations)
-        stated = nearest_layer.keys() & _CITING
-        if stated == {"line"}:
-            return Source(known[1].document, known[1].section, known[1].page, first_line(nearest_layer["line"]))
-        return source_from(self._scope, {**known[0], **cited((nearest_layer,))}) if stated else known[1]
-
-    def _default(self, facts: PointFacts, kind: int, shape: Shape) -> tuple[Fraction | None, int | None]:
-        """Return the factory setting in the unit and as raw number."""
-        if facts.layer("default") is None and facts.layer("default_in_units") is None:
-            return None, None
-        stated = kind, hashable(facts.get("default")), hashable(facts.get("default_in_units"))
-        return self._defaults.of(stated, facts, lambda _: _default_of(self._scope, facts, shape))
 
     def _terms_of(self, encoding: Encoding, found: ShapeAndLimits, facts: PointFacts) -> Terms:
         get, scope, shape = facts.get, self._scope, found.shape
@@ -279,7 +253,8 @@ def _certainty(scope: Scope, facts: PointFacts) -> str | None:
 
 def _default_of(scope: Scope, facts: PointFacts, shape: Shape) -> tuple[Fraction | None, int | None]:
     """Return the factory setting in the unit and as raw number; None if it is not given or depends on other points."""
-    if facts.text:
+    stated_so = facts.layer("default") is not None or facts.layer("default_in_units") is not None
+    if facts.text or not stated_so:
         return None, None
     rule = None if facts.floating else _rule(facts, shape)
     if facts.layer("default_in_units") is not None:
@@ -294,7 +269,7 @@ def _default_of(scope: Scope, facts: PointFacts, shape: Shape) -> tuple[Fraction
             return None if raw is None else value, raw
         exact = None if value is None or rule is None else rule.at(value)
         return value, exact.numerator if exact is not None and exact.denominator == 1 else None
-    raw = None if facts.layer("default") is None else _default_raw(scope, facts, shape)
+    raw = _default_raw(scope, facts, shape)
     if raw is not None and facts.pattern_bits:
         return Fraction(float_of(raw, facts.pattern_bits)), raw
     return None if raw is None or rule is None else (raw - rule.offset) / rule.ratio, raw

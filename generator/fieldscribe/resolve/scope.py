@@ -3,8 +3,9 @@
 `open_scope` makes the scope from the files; every later step of `resolve` asks it by name and reports through it.
 """
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 from fieldscribe.diagnostics import Report, Span
 from fieldscribe.families import Family, family
@@ -171,12 +172,7 @@ def first_line(value: object) -> int | None:
 
 def source_of(scope: Scope, *layers: Map) -> Source:
     """Return the source that the layers cite together, nearest first; without a document, the device's first one."""
-    return source_from(scope, cited(layers))
-
-
-def cited(layers: Iterable[Map]) -> dict[str, object]:
-    """Return what the layers cite by key; the first layer that has a key wins."""
-    facts: dict[str, object] = {}
+    facts: dict[str, Any] = {}
     for layer in layers:
         for key in _SOURCE:
             if key in layer:
@@ -184,11 +180,6 @@ def cited(layers: Iterable[Map]) -> dict[str, object]:
         if "source" in layer and isinstance(layer["source"], Map):
             for key, value in layer["source"].items():
                 facts.setdefault(key, value)
-    return facts
-
-
-def source_from(scope: Scope, facts: Mapping[str, object]) -> Source:
-    """Return the source for citations by key; without a document, the device's first one."""
     document = str(facts.get("document") or next(iter(scope.documents), ""))
     line, section, page = first_line(facts.get("line")), facts.get("section"), facts.get("page")
     return Source(

@@ -41,12 +41,11 @@ _Level = tuple[str, Map]
 
 @dataclass(slots=True)
 class SpecialCodes:
-    """Finds the special codes of points; codes that many points share are computed once."""
+    """Finds the special codes of points; codes that many points share are read once."""
 
     scope: Scope
     _reported: set[tuple[Span, str]] = field(default_factory=set)
     _held: dict[tuple[int, str, int], tuple[_Code, ...]] = field(default_factory=dict)
-    _specials: dict[tuple[object, ...], tuple[tuple[Special, ...], str]] = field(default_factory=dict)
 
     def check_types(self) -> None:
         """Check all codes under `types`, also those of types that no point has."""
@@ -61,10 +60,7 @@ class SpecialCodes:
         """Return the codes of a point of this type, nearest first, and a name for those that it shares with others."""
         levels = tuple(_levels(self.scope, facts, kind, bits))
         width = type_info(kind).bits if bits is None else bits[0] - bits[1] + 1
-        key = (*(id(node) for _, node in levels), kind, width)
-        if levels and key not in self._specials:
-            self._specials[key] = self._specials_of(levels, kind, width)
-        found, shared = self._specials.get(key, ((), ""))
+        found, shared = self._specials_of(levels, kind, width) if levels else ((), "")
         if not coding:
             return found, shared
         own = tuple(
