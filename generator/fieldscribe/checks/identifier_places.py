@@ -11,8 +11,18 @@ from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.targets.identifiers import Owner
 
-_LISTED = {"command": "commands", "message": "messages", "telegram": "telegrams"}
-_OF_BUS = {"exception": "exceptions", "function": "functions", "response": "responses"}
+_LISTED = {
+    "command": "commands",
+    "message": "messages",
+    "telegram": "telegrams",
+    "frame": "frames",
+    "erratum": "errata",
+    "group": "",
+}
+"""The sections that list things of a kind; groups are documents of their own."""
+_NAMING = {"erratum": "id", "group": "group"}
+"""The keys that name things of a kind, if that is not `name`."""
+OF_BUS = {"exception": "exceptions", "function": "functions", "response": "responses"}
 _OF_POINT = {"flag": "flags", "code": "special", "special codes": "special", "old name": "was"}
 """The key of a point that holds its parts, by kind."""
 
@@ -123,6 +133,15 @@ class IdentifierPlaces:
             return Thing(self._point_words(owner), self._facts(owner).span())
         return Thing(self._words(owner), self._place(owner))
 
+    def node(self, kind: str, name: str) -> Map | None:
+        """Return what the description says about a listed thing; None if it has none of that kind and name."""
+        scope, key = self._analysis.scope, _NAMING.get(kind, "name")
+        if kind not in _LISTED:
+            return None
+        listed = scope.groups if kind == "group" else scope.listed(_LISTED[kind])
+        signals = scope.listed("messages") if kind == "telegram" else ()  # they have a telegram, too
+        return next((node for node in (*listed, *signals) if node[key] == name), None)
+
     @cached_property
     def _enums(self) -> dict[str, _LocatedEnum]:
         declared = self._analysis.scope.named_enums
@@ -147,11 +166,8 @@ class IdentifierPlaces:
         scope = self._analysis.scope
         if owner.of is not None:
             return self._place_of_part(owner, owner.of)
-        if owner.kind in _LISTED:
-            listed = (*scope.listed(_LISTED[owner.kind]), *scope.listed("messages"))  # signals have a telegram, too
-            return next(node.span("name") for node in listed if node["name"] == owner.name)
-        if owner.kind == "group":
-            return next(node.span("group") for node in scope.groups if node["group"] == owner.name)
+        if (node := self.node(owner.kind, owner.name)) is not None:
+            return node.span(_NAMING.get(owner.kind, "name"))
         if owner.kind == "base":
             based = ((node, scope.base_of(node)) for node in scope.groups)
             group = next(node for node, base in based if base is not None and base.name == owner.name)
@@ -159,8 +175,8 @@ class IdentifierPlaces:
         if owner.kind == "special codes":
             return self._holder_of_codes(owner).span("special")
         holder = scope.header.get("variants") if owner.kind == "variant" else None
-        if owner.kind in _OF_BUS and scope.bus is not None:
-            holder = scope.bus.get(_OF_BUS[owner.kind])
+        if owner.kind in OF_BUS and scope.bus is not None:
+            holder = scope.bus.get(OF_BUS[owner.kind])
         return _key_place(holder, owner.name) or scope.header.span("device")
 
     def _place_of_part(self, owner: Owner, of: Owner) -> Span:

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator, Mapping
 from functools import cache, cached_property
 
-from fieldscribe.checks.identifier_places import IdentifierPlaces
+from fieldscribe.checks.identifier_places import OF_BUS, IdentifierPlaces
 from fieldscribe.code_view import for_code
 from fieldscribe.diagnostics import Span
 from fieldscribe.facts.devices import device_table
@@ -19,10 +19,8 @@ from fieldscribe.targets.identifiers import Owner
 _OF_ENUM = ("", "enum", "open", "name of the enum")
 """The facts of a point that belong to its enum, which is added, removed and renamed with it."""
 
-_LISTED = {"command": "commands", "message": "messages", "telegram": "telegrams"}
 _DECLARED = {"document": "documents", "variant": "variants", "given": "given", "found": "found"}
 """The key of the head under which things of a kind are declared."""
-_OF_BUS = {"function": "functions", "exception": "exceptions", "response": "responses"}
 
 
 class Described:
@@ -98,10 +96,10 @@ class Described:
         (kind, name), parts = names[0], names[1:]
         if kind == "point":
             return self._of_point(name, names, fact) if name in self.analysis.symbols.by_items else None
-        node = next((node for node in self._nodes(kind) if name in (node.get("name"), node.get("id"))), None)
+        node = self._owners.node(kind, name)
         if node is not None:
-            return _fact_span(node, fact) or node.span("name" if "name" in node else "id")
-        return None if parts else self._of_key(kind, name, fact)
+            return _fact_span(node, fact) or self._owners.thing(Owner(kind, name)).place
+        return None if parts else self._of_key(kind, name)
 
     def _of_point(self, item: str, names: tuple[tuple[str, str], ...], fact: str) -> Span:
         written = self.written(item)
@@ -115,25 +113,12 @@ class Described:
             written.span("enum" if fact == "enum" else "flags" if fact == "flag" else None)
         )
 
-    def _nodes(self, kind: str) -> Iterator[Map]:
-        analysis = self.analysis
-        if kind == "frame":
-            return (open_frame.node for open_frame in analysis.located_frames)
-        if kind == "erratum":
-            return (open_erratum.node for open_erratum in analysis.errata)
-        return analysis.scope.listed(_LISTED[kind]) if kind in _LISTED else iter(())
-
-    def _of_key(self, kind: str, name: str, fact: str) -> Span | None:
+    def _of_key(self, kind: str, name: str) -> Span | None:
         """Return the place of a declaration by its key."""
-        scope = self.analysis.scope
-        if kind == "group":
-            return next(
-                (_fact_span(node, fact) or node.span("group") for node in scope.groups if node["group"] == name), None
-            )
-        if kind in _OF_BUS or kind == "base":
+        if kind in OF_BUS or kind == "base":
             owner = Owner(kind, name)
             return _found(lambda: self._owners.thing(owner).place)
-        holder = scope.header.get(_DECLARED.get(kind, ""))
+        holder = self.analysis.scope.header.get(_DECLARED.get(kind, ""))
         return holder.key_span(name) if holder and name in holder else None
 
     def _of_device(self, fact: str) -> Span:
