@@ -8,7 +8,7 @@ from itertools import count
 from pathlib import Path
 
 import pytest
-from fieldscribe.resolve import memo
+from fieldscribe.resolve import shapes
 from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resources import descriptions_dir
 from support.described import DEVICES, compiled, described, loaded_in
@@ -32,7 +32,7 @@ ROWS = """
 """Rows that differ in little: limits outside the type, names of numbers, limits that decide about the shape."""
 
 
-class Unshared(memo.FactKeys):
+class Unshared(shapes.FactKeys):
     """Gives every point a key of its own."""
 
     def __init__(self) -> None:
@@ -95,7 +95,7 @@ def test_a_wrong_fact_is_reported_at_every_point(tmp_path: Path) -> None:
 def test_a_fact_that_is_forgotten_is_noticed(key: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """If points that differ in one fact share a key, some device means something else, or is refused."""
     right = models()
-    monkeypatch.setattr(memo, "_IDENTITY", memo._IDENTITY | {key})
+    monkeypatch.setattr(shapes, "_IDENTITY", shapes._IDENTITY | {key})
     assert any(compiled(file) != model for file, model in zip(GOOD, right, strict=True))
 
 

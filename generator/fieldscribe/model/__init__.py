@@ -30,12 +30,19 @@ from fieldscribe.model.numbers import (
     NOTATIONS,
     TYPE_PATTERN,
     TYPES,
+    Allowed,
+    Bound,
     DatePart,
     Digits,
     Entry,
     Enum,
+    Factor,
     Fixed,
     Flag,
+    Interval,
+    Limit,
+    Linear,
+    ScaleCase,
     Special,
     Text,
     Titles,
@@ -44,5 +51,4 @@ from fieldscribe.model.numbers import (
     type_info,
 )
 from fieldscribe.model.point import NOWHERE, Place, Point, Source, Terms, Unit, Variant, bits_of, item_of
-from fieldscribe.model.rules import Allowed, Bound, Factor, Interval, Limit, Linear, ScaleCase
 from fieldscribe.model.shape import Interner, Shape

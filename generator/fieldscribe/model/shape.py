@@ -3,8 +3,20 @@
 from dataclasses import dataclass
 from functools import cached_property
 
-from fieldscribe.model.numbers import TYPES, Digits, Enum, Fixed, Flag, Special, Text, TypeInfo
-from fieldscribe.model.rules import Allowed, Interval, Linear, ScaleCase
+from fieldscribe.model.numbers import (
+    TYPES,
+    Allowed,
+    Digits,
+    Enum,
+    Fixed,
+    Flag,
+    Interval,
+    Linear,
+    ScaleCase,
+    Special,
+    Text,
+    TypeInfo,
+)
 
 
 @dataclass(frozen=True)

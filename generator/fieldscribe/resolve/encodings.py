@@ -8,7 +8,6 @@ from fieldscribe.language.hints import quoted
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.suggestions import space_hint, suggest_bits
 from fieldscribe.model import Special, carrier_of, type_info
-from fieldscribe.resolve.memo import Memo
 from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.special_codes import SpecialCodes
@@ -34,35 +33,23 @@ class Encoding(NamedTuple):
     coding: str = ""
 
 
-class Encodings:
-    """Resolves the encodings of points, once for all points of a kind."""
-
-    def __init__(self, scope: Scope) -> None:
-        self._scope = scope
-        self._codes = SpecialCodes(scope)
-        self._codes.check_types()
-        self._memo: Memo[Encoding] = Memo(scope.report)
-
-    def of(self, facts: PointFacts, kind: int) -> Encoding:
-        """Return the encoding of a point."""
-        return self._memo.of(kind, facts, self._encoding)
-
-    def _encoding(self, facts: PointFacts) -> Encoding:
-        space = _space_of(self._scope, facts)
-        bits = _bits_of(self._scope, facts, space)
-        name = _type_of(self._scope, facts, space, bits)
-        info = type_info(name)
-        width = info.bits if bits is None else bits[0] - bits[1] + 1
-        if self._scope.family.spaces[space] == "signal" and width < 16:
-            bits = (width - 1, 0)  # of a whole word
-        coding = _coding_of(self._scope, facts, name, width)
-        holds = coded_ends(width, coding) if coding else ends_of(width, signed=info.signed)
-        carrier = f"u{facts.pattern_bits}" if facts.pattern_bits else carrier_of(name)
-        order = None if self._scope.bus is None else self._scope.bus.get("bytes")
-        words = self._scope.family.spaces[space] == "word" and name != "text"
-        swapped = words and low_first(facts, "bytes", order, carrier if bits is None else "u16")
-        codes = self._codes.of(facts, name, bits, coding)
-        return Encoding(space, carrier, bits, width, holds, *codes, swapped, coding)
+def encoding_of(codes: SpecialCodes, facts: PointFacts) -> Encoding:
+    """Return the encoding of a point; report what is wrong with it."""
+    scope = codes.scope
+    space = _space_of(scope, facts)
+    bits = _bits_of(scope, facts, space)
+    name = _type_of(scope, facts, space, bits)
+    info = type_info(name)
+    width = info.bits if bits is None else bits[0] - bits[1] + 1
+    if scope.family.spaces[space] == "signal" and width < 16:
+        bits = (width - 1, 0)  # of a whole word
+    coding = _coding_of(scope, facts, name, width)
+    holds = coded_ends(width, coding) if coding else ends_of(width, signed=info.signed)
+    carrier = f"u{facts.pattern_bits}" if facts.pattern_bits else carrier_of(name)
+    order = None if scope.bus is None else scope.bus.get("bytes")
+    words = scope.family.spaces[space] == "word" and name != "text"
+    swapped = words and low_first(facts, "bytes", order, carrier if bits is None else "u16")
+    return Encoding(space, carrier, bits, width, holds, *codes.of(facts, name, bits, coding), swapped, coding)
 
 
 def low_first(facts: PointFacts, key: str, order: object, carrier: str) -> bool:

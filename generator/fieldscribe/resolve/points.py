@@ -15,13 +15,13 @@ from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.bounds import Bounds
 from fieldscribe.resolve.bus import KEY_OF, Telegrams
 from fieldscribe.resolve.conditions import condition_of
-from fieldscribe.resolve.encodings import Encoding, Encodings
-from fieldscribe.resolve.memo import FactKeys, Memo
+from fieldscribe.resolve.encodings import Encoding, encoding_of
 from fieldscribe.resolve.point_facts import TO_END, PointFacts
 from fieldscribe.resolve.ranges import Ranges
 from fieldscribe.resolve.scales import IDENTITY, Scales
 from fieldscribe.resolve.scope import PLAIN, Scope, source_of, titles
-from fieldscribe.resolve.shapes import ShapeAndLimits, Shapes
+from fieldscribe.resolve.shapes import FactKeys, Memo, ShapeAndLimits, Shapes
+from fieldscribe.resolve.special_codes import SpecialCodes
 from fieldscribe.resolve.symbols import SymbolTable
 from fieldscribe.resolve.values import integer, number, pattern
 
@@ -39,9 +39,10 @@ def resolve_points(
     scope: Scope, all_facts: list[PointFacts], symbols: SymbolTable, telegrams: Telegrams
 ) -> tuple[list[ResolvedPoint], Ranges, Places]:
     """Return all points of the device; report wrong facts, and assume defaults for them."""
-    kind_of, encoding_of = FactKeys().of, Encodings(scope).of
+    codes, kind_of, known = SpecialCodes(scope), FactKeys().of, Memo[Encoding](scope.report)
+    codes.check_types()
     kinds = {facts: kind_of(facts) for facts in all_facts}
-    encodings = {facts: encoding_of(facts, kind) for facts, kind in kinds.items()}
+    encodings = {facts: known.of(kind, facts, partial(encoding_of, codes)) for facts, kind in kinds.items()}
     scales = Scales(scope, symbols)
     ranges, places = Ranges(Bounds(scales, encodings)), Places(scope, telegrams)
     shape_of = Shapes(scope, encodings, ranges, places).of

@@ -1,25 +1,38 @@
 """The shape and the limits of each point: what its raw numbers mean, and which of them may be written.
 
-Points of one kind share their shape, and points with the same limits share these: both are computed once.
+Points of one kind share their shape, and points with the same limits share these: both are computed once. `FactKeys`
+tells the kinds: the points of a kind state the same facts. `Memo` remembers what follows from these.
 """
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Hashable, Mapping
 from dataclasses import replace
-from typing import NamedTuple
+from decimal import Decimal
+from typing import Generic, NamedTuple, TypeVar
 
+from fieldscribe.diagnostics import Report
+from fieldscribe.language.keys import identifying_keys, keys_of
+from fieldscribe.language.keys.places import POINT, SOURCE
+from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.model import Allowed, Enum, Interner, ScaleCase, Shape
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.bounds import Bounds
 from fieldscribe.resolve.encodings import Encoding
 from fieldscribe.resolve.integer_path import asks_limits, paths_of, shows
-from fieldscribe.resolve.memo import Memo, hashable
 from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.ranges import Ranges
 from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.special_codes import quantities
 from fieldscribe.resolve.values import FactError
 from fieldscribe.resolve.word_contents import allowed_digits, digits_of, enum_of, epoch_of, fixed_of, flags_of, text_of
+
+Fact = TypeVar("Fact")
+
+_IDENTITY = identifying_keys(POINT) | {*keys_of(SOURCE), "source", "lines", "note", "was", "write_at", "each"}
+"""Keys that identify or annotate a point: no shape, scale or limit depends on them."""
+
+_NUMBERS = frozenset(("range", "range_in_units", "default", "default_in_units"))
+"""Keys of which only the presence counts, because each point has its own number there."""
 
 _WHOLE = re.compile(r"(-?[0-9]{1,9})\.\.(-?[0-9]{1,9})")
 """An interval of whole numbers in its usual form; the parser of formulas reads all others."""
@@ -31,6 +44,75 @@ _NO_QUANTITY = {
     "bit": "a single bit",
 }
 """The forms of points that are not a quantity, in words."""
+
+
+class FactKeys:
+    """Numbers kinds of points: those of a kind state the same facts, except for identity and numbers of limits."""
+
+    def __init__(self) -> None:
+        self._keys: dict[Hashable, int] = {}
+        self._layers: dict[int, Hashable] = {}
+
+    def of(self, point: PointFacts) -> int:
+        """Return the kind of a point. A point with a variant or with findings is a kind of its own."""
+        if point.variant is not None or point.failed:
+            stated: Hashable = point
+        else:
+            first, *others = point.layers
+            shared = tuple(map(self._shared, others)) if others else ()
+            stated = id(point.group), first is point.node, bool(point.hidden), _stated(first), shared
+        return self._keys.setdefault(stated, len(self._keys))
+
+    def _shared(self, layer: Map) -> Hashable:
+        """Return what a shared layer states, such as a format."""
+        if id(layer) not in self._layers:
+            self._layers[id(layer)] = _stated(layer)
+        return self._layers[id(layer)]
+
+
+def _stated(layer: Map) -> Hashable:
+    return tuple(
+        [
+            key if key in _NUMBERS else (key, value if value.__class__ is str else hashable(value))
+            for key, value in layer.items()
+            if key not in _IDENTITY
+        ]
+    )
+
+
+def hashable(value: object) -> Hashable:
+    """Return a YAML value as a hashable one, equal for equal texts."""
+    if isinstance(value, Map):
+        return (*value.broken, *[(key, hashable(inner)) for key, inner in value.items()])
+    if isinstance(value, Seq):
+        return tuple(map(hashable, value))
+    return str(value) if isinstance(value, Decimal) else (value.__class__, value)
+
+
+class Memo(Generic[Fact]):
+    """Remembers a fact by what it follows from. A fact with a finding is computed again for every point."""
+
+    def __init__(self, report: Report) -> None:
+        self._report = report
+        self._known: dict[Hashable, Fact] = {}
+
+    def of(
+        self,
+        key: Hashable,
+        point: PointFacts,
+        work: Callable[[PointFacts], Fact],
+        general: Callable[[Fact], bool] = lambda _: True,
+    ) -> Fact:
+        """Return the fact of a point; `general` says whether it holds for all points with the key."""
+        known = self._known.get(key)
+        if known is not None:
+            return known
+        before = self._report.count
+        fact = work(point)
+        sound = self._report.count == before and not point.failed and not self._report.full
+        if sound and general(fact):
+            self._known[key] = fact
+        return fact
 
 
 class ShapeAndLimits(NamedTuple):

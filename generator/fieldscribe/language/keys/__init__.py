@@ -8,7 +8,7 @@ To add a key:
 2. Read it where its neighbours are read, in `resolve/` (`facts.get("name")`; most are read in `_terms_of` of
    `resolve/points.py`). Give the model a field with a default: in `Terms` (and its line in `Point`), or in `Shape` if
    encoding depends on it. If nearly every point has another value, put the field into `Point` itself. The key
-   is then `identity=True` if further sets do not inherit it, else it stands in `_IDENTITY` of `resolve/memo.py`:
+   is then `identity=True` if further sets do not inherit it, else it stands in `_IDENTITY` of `resolve/shapes.py`:
    `Terms` and `Shape`, which points share, must not depend on such a key.
 3. Fields of `Terms` and `Shape` reach generated code. If the fact is for people only, clear it in `code_view.py`, and
    say `for_people` in its row of step 4.

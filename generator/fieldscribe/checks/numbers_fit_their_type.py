@@ -1,9 +1,14 @@
-"""Every entry of an enum can occur: it lies in the range and the type, and it is not a special code."""
+"""The numbers of a point fit its type: every entry of an enum can occur, steps lie in the type, computed limits too.
 
+An entry lies in the range and the type, and it is not a special code. A limit from other points is a signed 64-bit
+number, the widest with which generated code computes.
+"""
+
+from fieldscribe.arithmetic.words import INT64
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import integer_in
-from fieldscribe.model import Point
+from fieldscribe.model import Limit, Point
 from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.points import ResolvedPoint
 
@@ -12,8 +17,10 @@ _UNKNOWN = {"type", "bits"}
 
 
 def check(analysis: Analysis) -> None:
-    """Report entries outside the range or the type, entries that are special codes too, and steps outside the type."""
+    """Report entries, steps and computed limits that do not fit, and entries that are special codes too."""
     for resolved in analysis.resolved:
+        if resolved.point.allowed.moves:
+            _limits(analysis, resolved)
         if not resolved.facts.failed.isdisjoint(_UNKNOWN):
             continue
         shape = resolved.point.shape
@@ -26,6 +33,16 @@ def check(analysis: Analysis) -> None:
                 message = f"steps from {start} on lie outside the type, which holds {_held(resolved.point)}"
                 hint = "steps are counted in raw numbers"
                 analysis.report.error("range-outside-type", message, resolved.facts.span("steps"), hint)
+
+
+def _limits(analysis: Analysis, resolved: ResolvedPoint) -> None:
+    """Report computed limits that may be too great."""
+    ends = (end for interval in resolved.point.allowed.intervals for end in (interval.low, interval.high))
+    if any(isinstance(end, Limit) and end.greatest > INT64[1] for end in ends):
+        key = "range" if resolved.facts.get("range") is not None else "range_in_units"
+        message = f"the limit of `{resolved.point.name}` may exceed {INT64[1]}, which no generated code computes"
+        hint = "give the points that it follows from a narrower type or range, or use `s64`"
+        analysis.report.error("range-outside-type", message, resolved.facts.span(key), hint)
 
 
 def _held(point: Point) -> str:
