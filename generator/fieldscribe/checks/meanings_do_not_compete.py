@@ -1,7 +1,5 @@
 """A point is one thing: a named number, a word of flags, a quantity with a scale, or a floating-point number."""
 
-from functools import lru_cache
-
 from fieldscribe.language.keys import facts_of
 from fieldscribe.language.keys.places import POINT
 from fieldscribe.resolve.analysis import Analysis
@@ -34,12 +32,6 @@ _RIVALS = (
 )
 
 
-@lru_cache(maxsize=4096)
-def _rivals_among(keys: tuple[str, ...]) -> tuple[tuple[str, str, str], ...]:
-    """Return the pairs of keys that exclude each other; many points have the same keys."""
-    return tuple(rivals for rivals in _RIVALS if set(keys).issuperset(rivals[:2]))
-
-
 def check(analysis: Analysis) -> None:
     """Report facts of one point that exclude each other."""
     for resolved in analysis.resolved:
@@ -56,7 +48,7 @@ def check(analysis: Analysis) -> None:
             message = f"`{facts.name}` is a single bit, which is 0 or 1 and has no scale"
             analysis.report.error("two-meanings", message, facts.span("scale"), "name its two states by an `enum`")
         _needless(analysis, facts, writable=shape.writable)
-        for first, second, hint in _rivals_among(tuple(facts.keys)):
+        for first, second, hint in _RIVALS:
             if first == "fixed" and resolved.point.bits is not None:
                 continue
             if facts.get(first) is not None and facts.get(second) is not None:

@@ -269,10 +269,9 @@ _LIMITS: FactTable = (
 
 
 @cache
-def _with_family_facts(kind: str, table: FactTable, own_family: str, *, foreign: bool) -> FactTable:
-    """Return the table with the facts that families add; with `foreign`, those of other families, which are empty."""
-    others = families() if foreign else ()
-    facts = {fact.key: replace(fact, **_FOREIGN) for each in others for fact in _offered(each, kind)}
+def _with_family_facts(kind: str, table: FactTable, own_family: str) -> FactTable:
+    """Return the table with the facts that families add; those of other families are empty."""
+    facts = {fact.key: replace(fact, **_FOREIGN) for each in families() for fact in _offered(each, kind)}
     facts |= {fact.key: fact for fact in _offered(family(own_family), kind)}
     return (*table, *facts.values())
 
@@ -285,14 +284,14 @@ def _offered(of_family: Family, kind: str) -> FactTable:
 _FOREIGN: Mapping[str, Any] = {"derived": "it is a fact of another family", "weight": "", "views": ()}
 
 
-def limits_table(own_family: str, *, foreign: bool = True) -> FactTable:
+def limits_table(own_family: str) -> FactTable:
     """Return the facts of the bus of a device of that family."""
-    return _with_family_facts("LIMITS", _LIMITS, own_family, foreign=foreign)
+    return _with_family_facts("LIMITS", _LIMITS, own_family)
 
 
-def frame_table(own_family: str, *, foreign: bool = True) -> FactTable:
+def frame_table(own_family: str) -> FactTable:
     """Return the facts of worked examples of that family."""
-    return (*_with_family_facts("FRAME", _FRAME, own_family, foreign=foreign), SOURCE, ERRATA)
+    return (*_with_family_facts("FRAME", _FRAME, own_family), SOURCE, ERRATA)
 
 
 _SECTIONS = {
@@ -329,9 +328,9 @@ def _codes_of(section: str, bus: Bus, _: Context) -> dict[str, Code]:
 
 
 @cache
-def device_table(own_family: str, *, foreign: bool = True) -> FactTable:
-    """Return the facts of a device of that family; without `foreign` facts none that only other families have."""
-    limits, frame = limits_table(own_family, foreign=foreign), frame_table(own_family, foreign=foreign)
+def device_table(own_family: str) -> FactTable:
+    """Return the facts of a device of that family."""
+    limits, frame = limits_table(own_family), frame_table(own_family)
     codes = codes_table(own_family)
     errata = replace(_parts("erratum", ERRATUM, listed=_errata, change=BEHAVIOUR), summary=_erratum_in_short)
     return (

@@ -40,8 +40,7 @@ def _has_texts(fact: Fact) -> bool:
 def _digest(
     device: Device, context: Context, left_out: tuple[str, ...], of_points: FactTable = POINT, start: str = ""
 ) -> str:
-    facts = device_table(device.family, foreign=False)  # those of other families are empty, and their modules stay out
-    table = tuple(fact for fact in facts if fact.key not in left_out)
+    table = tuple(fact for fact in device_table(device.family) if fact.key not in left_out)
     checksum = sha256(start.encode() + _canonical(stated(table, device, context)))
     for text in _points(device, context, of_points):
         checksum.update(text)

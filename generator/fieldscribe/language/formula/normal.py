@@ -30,27 +30,19 @@ SHAPE = "supported is number * product of points + number, where a factor may be
 LINEAR_ONLY = "only a rule that is linear in the variable can be inverted"
 
 
-class Symbol(NamedTuple):
-    """A run-time factor: raw * slope + intercept of a point, or ten to this power; slope > 0, no common divisor."""
-
-    point: str
-    slope: int
-    intercept: int
-    ten_to: bool
-
-
 @dataclass(frozen=True, slots=True)
 class Term:
     """A term; `variable` is 0 or 1: coefficient * (the variable) ** variable * product + offset.
 
-    A constant has coefficient 0. If the product is a single point, the term is open: slope and intercept of the point
-    are part of coefficient and offset, so that terms with the same point can be added.
+    A constant has coefficient 0. The product has each factor, with slope > 0 and no common divisor, and how often it is
+    multiplied with. If it is a single point, the term is open: slope and intercept of the point are part of coefficient
+    and offset, so that terms with the same point can be added.
     """
 
     coefficient: Fraction
     offset: Fraction
     variable: int = 0
-    product: Mapping[Symbol, int] = field(default_factory=dict)
+    product: Mapping[Factor, int] = field(default_factory=dict)
 
     @property
     def constant(self) -> bool:
@@ -60,7 +52,7 @@ class Term:
     @property
     def points(self) -> str:
         """The points of the product, for messages."""
-        return " and ".join(f"`{point}`" for point in dict.fromkeys(symbol.point for symbol in self.product))
+        return " and ".join(f"`{point}`" for point in dict.fromkeys(factor.point for factor in self.product))
 
 
 def number(value: Fraction) -> Term:
@@ -99,8 +91,8 @@ def multiply(left: Term, right: Term, column: int) -> Term:
             raise FormulaError(f"the offset depends on {other.points}", column, SHAPE)
     left, right = _closed(left, column), _closed(right, column)
     product = dict(left.product)
-    for symbol, power in right.product.items():
-        _raise_power(product, symbol, power, column)
+    for factor, power in right.product.items():
+        _raise_power(product, factor, power, column)
     return _opened(left.coefficient * right.coefficient, left.variable + right.variable, product)
 
 
@@ -113,44 +105,44 @@ def reciprocal(term: Term, column: int) -> Term:
     if term.variable:
         raise FormulaError("not linear: the variable stands in a divisor", column, LINEAR_ONLY)
     closed = _closed(term, column)
-    return _opened(1 / closed.coefficient, 0, {symbol: -power for symbol, power in closed.product.items()})
+    return _opened(1 / closed.coefficient, 0, {factor: -power for factor, power in closed.product.items()})
 
 
 def _closed(term: Term, column: int) -> Term:
     """Return the same term without an offset: the offset becomes the intercept of its point."""
     if term.offset == 0:
         return term
-    (symbol, power), *others = term.product.items()
-    if others or symbol.ten_to or power != 1:
+    (factor, power), *others = term.product.items()
+    if others or factor.ten_to or power != 1:
         raise FormulaError("a sum of points and numbers is a factor only if it has one point", column, SHAPE)
     common = lcm(term.coefficient.denominator, term.offset.denominator)
     slope, intercept = int(term.coefficient * common), int(term.offset * common)
     divisor = gcd(slope, intercept) * (1 if slope > 0 else -1)
-    closed = Symbol(symbol.point, slope // divisor, intercept // divisor, False)
+    closed = Factor(factor.point, slope // divisor, intercept // divisor, 1, ten_to=False)
     return Term(Fraction(divisor, common), Fraction(0), 0, {closed: 1})
 
 
-def _opened(coefficient: Fraction, variable: int, product: dict[Symbol, int]) -> Term:
+def _opened(coefficient: Fraction, variable: int, product: dict[Factor, int]) -> Term:
     """Return the term with this product; if that is a single point, the term is open (see `Term`)."""
     if not variable and len(product) == 1:
-        (symbol, power) = next(iter(product.items()))
-        if power == 1 and not symbol.ten_to:
-            opened = {Symbol(symbol.point, 1, 0, False): 1}
-            return Term(coefficient * symbol.slope, coefficient * symbol.intercept, 0, opened)
+        (factor, power) = next(iter(product.items()))
+        if power == 1 and not factor.ten_to:
+            opened = {Factor(factor.point, 1, 0, 1, ten_to=False): 1}
+            return Term(coefficient * factor.slope, coefficient * factor.intercept, 0, opened)
     if not variable and not product:
         return number(coefficient)
     return Term(coefficient, Fraction(0), variable, product)
 
 
-def _raise_power(product: dict[Symbol, int], symbol: Symbol, power: int, column: int) -> None:
+def _raise_power(product: dict[Factor, int], factor: Factor, power: int, column: int) -> None:
     """Multiply a product by a factor. A power of ten may cancel; a point may not, for it could be zero."""
-    before = product.get(symbol, 0)
-    if before * power < 0 and not symbol.ten_to:
-        raise FormulaError(f"`{symbol.point}` is multiplied and divided by", column, "leave out what cancels")
+    before = product.get(factor, 0)
+    if before * power < 0 and not factor.ten_to:
+        raise FormulaError(f"`{factor.point}` is multiplied and divided by", column, "leave out what cancels")
     if before + power:
-        product[symbol] = before + power
+        product[factor] = before + power
     else:
-        del product[symbol]
+        del product[factor]
 
 
 def _refuse_sum(left: Term, right: Term, column: int) -> NoReturn:
@@ -266,8 +258,8 @@ def _linear(term: Term, expression: Expression) -> Linear:
     """Return the rule of a term, with its factors in the order of the text."""
     column = _start(expression)
     factors = tuple(
-        Factor(symbol.point, symbol.slope, symbol.intercept, 1 if power > 0 else -1, symbol.ten_to)
-        for symbol, power in term.product.items()
+        replace(factor, power=1 if power > 0 else -1)
+        for factor, power in term.product.items()
         for _ in range(abs(power))
     )
     sizes = map(int.bit_length, (*term.coefficient.as_integer_ratio(), *term.offset.as_integer_ratio()))
@@ -312,7 +304,7 @@ def _point(name: Name, variable: str, resolve: Resolve) -> Term:
     point, slope, intercept = _resolved(name, resolve)
     if slope == 0:
         return number(intercept)
-    return Term(slope, intercept, 0, {Symbol(point, 1, 0, False): 1})
+    return Term(slope, intercept, 0, {Factor(point, 1, 0, 1, ten_to=False): 1})
 
 
 def _power(power: Power10, variable: str, resolve: Resolve) -> Term:
@@ -328,12 +320,12 @@ def _power(power: Power10, variable: str, resolve: Resolve) -> Term:
         raise FormulaError(message, exponent.column, f"write {exponent.name}.raw if its raw number is meant")
     if slope < 0:
         slope, intercept, sign = -slope, -intercept, -sign
-    symbol = Symbol(point, slope.numerator, intercept.numerator, True)
+    factor = Factor(point, slope.numerator, intercept.numerator, 1, ten_to=True)
     if slope == 0:
         if abs(intercept) > MOST_EXPONENT:
             raise FormulaError(f"the exponent `{exponent.name}` is too large", exponent.column)
-        return number(Fraction(10) ** (sign * symbol.intercept))
-    return Term(Fraction(1), Fraction(0), 0, {symbol: sign})
+        return number(Fraction(10) ** (sign * factor.intercept))
+    return Term(Fraction(1), Fraction(0), 0, {factor: sign})
 
 
 def _resolved(name: Name, resolve: Resolve) -> Affine:
