@@ -5,23 +5,20 @@ Nor do two identifiers differ only after the characters that a language compares
 Each target lists its identifiers with their owners (`identifiers` of `targets/*`); here they are only compared. Points
 that have other findings are left out. Reserved words do not clash: targets change such names themselves.
 
-Mostly a quick proof does without all the names. Points of one kind have the same identifiers except for the point's
-name. So a target lists the identifiers of one point of each kind: a start, the name, and an ending. Two names that
-differ can only give equal identifiers if one name begins with the other, and an ending begins with the rest. Names are
-compared without case and underscores, because languages write them differently. If the proof fails, that is not yet a
-clash: then all identifiers are compared.
+Mostly a quick proof does without listing all of them. Points of one kind have the same identifiers except for the
+point's name. So a target lists the identifiers of one point of each kind: a start, the name, and an ending; those of
+the other points follow. They are compared without case and underscores, because languages write names differently. If
+some are equal, that is not yet a clash: then the target lists all identifiers.
 """
 
 from __future__ import annotations
 
-from bisect import bisect_left
 from collections import Counter, defaultdict
 from collections.abc import Callable, Hashable, Iterable, Mapping
-from dataclasses import dataclass, field, replace
-from functools import cached_property
-from itertools import combinations
+from dataclasses import replace
 
 from fieldscribe.checks.identifier_places import IdentifierPlaces, Named, Thing, given_names, thing_of
+from fieldscribe.grouping import grouped
 from fieldscribe.lowered import lower
 from fieldscribe.model import Device
 from fieldscribe.resolve.analysis import Analysis
@@ -51,6 +48,7 @@ class PointKinds:
         for item, name in several.items():
             of_kind = self.names[name] = first.setdefault(kinds[item], name)
             self._longest[of_kind] = max(len(item), self._longest.get(of_kind, 0))
+        self._of_kind = grouped((of_kind, name) for name, of_kind in self.names.items())
         self._are_unique = len(self.names) == len(several)
         left_out = {item for item, name in several.items() if self.names[name] != name}
         self.sample = _sample(device, left_out)
@@ -66,14 +64,14 @@ class PointKinds:
         listed = list(identifiers(self.sample))
         if next(clashes(listed), None) is not None or next(resemblances(listed), None) is not None:
             return False
-        spaces: defaultdict[str, _Space] = defaultdict(_Space)
+        around: defaultdict[str, set[tuple[str, str, str]]] = defaultdict(set)
+        others: defaultdict[str, set[str]] = defaultdict(set)
         device = _plain(self.sample.id)
         starts = [*(device + word for word in sorted(before_points, key=len, reverse=True)), ""]
         for namespace, owner, names, significant in listed:
             point = _point_of(owner)
             item = _plain(point)
             shared = self.names.get(item) == item and point not in namespace  # it has no other names
-            space = spaces[namespace]
             if shared and significant is not None:
                 most = significant - (self._longest[item] - len(point))  # a longer name is proven by its start
                 if any(len(name) >= most for name in names):
@@ -81,56 +79,17 @@ class PointKinds:
             for name in map(_plain, names):
                 start = next((start for start in starts if shared and name.startswith(start + item)), None)
                 if start is not None:
-                    space.starts.add(start)
-                    space.endings[name[len(start) + len(item) :]].add(item)
+                    around[namespace].add((start, item, name[len(start) + len(item) :]))
                 elif shared:
                     return False
                 else:
-                    space.others.add(name)
-        return all(map(self._differ, spaces.values()))
+                    others[namespace].add(name)
+        return all(self._differ(parts, others[namespace]) for namespace, parts in around.items())
 
-    def _differ(self, space: _Space) -> bool:
-        """Return True if no name gives an identifier that another name, or another thing, has in this namespace."""
-        for start, longer in combinations(sorted(space.starts), 2):
-            rest = longer[len(start) :]
-            if longer.startswith(start) and any(rest.startswith(name) or name.startswith(rest) for name in self.names):
-                return False
-        for ending, points in space.endings.items():
-            for end in range(1, len(ending) + 1):
-                pairs, shorter = self._rests.get(ending[:end]), space.endings.get(ending[end:])
-                if pairs and shorter and any(first in points and second in shorter for first, second in pairs):
-                    return False
-        return not any(
-            other[at:end] in self.names and other[end:] in space.endings
-            for start in space.starts
-            for other in space.others
-            if other.startswith(start)
-            for at in [len(start)]
-            for end in range(at + 1, len(other) + 1)
-        )
-
-    @cached_property
-    def _rests(self) -> dict[str, set[tuple[str, str]]]:
-        """For each name that begins with another: the rest of it, and the kinds of both, the shorter name first."""
-        rests: defaultdict[str, set[tuple[str, str]]] = defaultdict(set)
-        lengths = sorted(set(map(len, self.names)))
-        for name, kind in self.names.items():
-            for end in lengths[: bisect_left(lengths, len(name))]:
-                if (shorter := self.names.get(name[:end])) is not None:
-                    rests[name[end:]].add((shorter, kind))
-        return rests
-
-
-@dataclass
-class _Space:
-    """The identifiers of a namespace: the starts and endings around the names of points, and those of other things.
-
-    Each ending has the kinds of points that have it.
-    """
-
-    starts: set[str] = field(default_factory=set)
-    endings: defaultdict[str, set[str]] = field(default_factory=lambda: defaultdict(set))
-    others: set[str] = field(default_factory=set)
+    def _differ(self, around: set[tuple[str, str, str]], others: set[str]) -> bool:
+        """Return True if no name, between each start and ending of its kind, gives an identifier that is there."""
+        identifiers = [start + name + ending for start, kind, ending in around for name in self._of_kind[kind]]
+        return len(set(identifiers)) == len(identifiers) and others.isdisjoint(identifiers)
 
 
 def _sample(device: Device, left_out: set[str]) -> Device:
