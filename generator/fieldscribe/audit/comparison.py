@@ -98,7 +98,7 @@ class Editions:
         self.citations = citations
         self._old, self._new = citations.manual(old), citations.manual(new)
         self.alignment = Alignment(self._old.lines, self._new.lines)
-        self._counting_new: set[tuple[str, int, int]] = set()
+        self._counting_new: set[Span] = set()
         self._others_count_new = False
         self._decide()
         self.in_old = Held(citations, self._old, self._then)
@@ -111,9 +111,7 @@ class Editions:
 
     def counts_new(self, key: Span) -> bool:
         """Return True if the lines at a place of the YAML are those of the new edition."""
-        return _identity(key) in self._counting_new or (
-            self._others_count_new and _identity(key) not in self._counting_old
-        )
+        return key in self._counting_new or (self._others_count_new and key not in self._counting_old)
 
     def is_blank_in_new(self, line: int) -> bool:
         """Return True if a line of the new edition holds nothing."""
@@ -123,7 +121,7 @@ class Editions:
         """Find the places with line numbers of the new edition; lines that did not move do not decide."""
         needed = (claim for claim in self.citations.claims if not claim.optional)
         claims = [claim for claim in needed if any(map(self._has_moved, claim.cited))]
-        self._counting_old: set[tuple[str, int, int]] = set()
+        self._counting_old: set[Span] = set()
         if not claims:
             return
         as_old = self._standing(claims, lambda cited: cited.lines, self._moved(self.alignment.now))
@@ -138,20 +136,20 @@ class Editions:
     def _has_moved(self, cited: Cited) -> bool:
         return self.alignment.now(cited.first) != cited.first
 
-    def _standing(self, claims: list[Claim], in_old: _Mapping, in_new: _Mapping) -> Counter[tuple[str, int, int]]:
+    def _standing(self, claims: list[Claim], in_old: _Mapping, in_new: _Mapping) -> Counter[Span]:
         """Count the claims that only one of the texts prints, by the place of their lines in the YAML.
 
         Claims count once for the whole cited place, and once for its first row: a row below has the facts of another
         numbering.
         """
-        counts: Counter[tuple[str, int, int]] = Counter()
+        counts: Counter[Span] = Counter()
         for row_alone in (False, True):
             texts = [
                 Held(self.citations, manual, now, filter(manual.opens_row, range(1, row_alone * len(manual) + 1)))
                 for manual, now in ((self._old, in_old), (self._new, in_new))
             ]
             printed = [claim for claim in claims if any(held.is_printed(claim) for held in texts)]
-            counts.update(_identity(cited.key) for claim in printed for cited in claim.cited if self._has_moved(cited))
+            counts.update(cited.key for claim in printed for cited in claim.cited if self._has_moved(cited))
         return counts
 
     def _now(self, cited: Cited) -> tuple[int, int] | None:
@@ -183,7 +181,7 @@ class Editions:
             lines.append(ChangedLine(change.kind, change.old, change.new, old, new, words, cited))
         errata = [erratum.id for erratum in self.citations.errata if self._fell(erratum)]
         cited_lines = (cited for claim in self.citations.claims for cited in claim.cited)
-        left = {_identity(cited.key) for cited in cited_lines if self._is_left(cited)}
+        left = {cited.key for cited in cited_lines if self._is_left(cited)}
         facts_that_fell = [fact for fact in facts.values() if not fact.stands]
         return Comparison(self.citations.device, old_name, new_name, lines, facts_that_fell, errata, len(left))
 
@@ -220,7 +218,3 @@ def _by_line(held: Held, fallen: Iterable[Claim]) -> dict[int, dict[Claim, None]
 def _lines(held: Held, claim: Claim) -> set[int]:
     """Return the lines with the evidence of a claim."""
     return {line for place in held.places[claim] for line in place.found.lines}
-
-
-def _identity(span: Span) -> tuple[str, int, int]:
-    return span.file, span.line, span.column
