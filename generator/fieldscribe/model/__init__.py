@@ -30,19 +30,12 @@ from fieldscribe.model.numbers import (
     NOTATIONS,
     TYPE_PATTERN,
     TYPES,
-    Allowed,
-    Bound,
     DatePart,
     Digits,
     Entry,
     Enum,
-    Factor,
     Fixed,
     Flag,
-    Interval,
-    Limit,
-    Linear,
-    ScaleCase,
     Special,
     Text,
     Titles,
@@ -51,4 +44,4 @@ from fieldscribe.model.numbers import (
     type_info,
 )
 from fieldscribe.model.point import NOWHERE, Place, Point, Source, Terms, Unit, Variant, bits_of, item_of
-from fieldscribe.model.shape import Interner, Shape
+from fieldscribe.model.shape import Allowed, Bound, Factor, Interner, Interval, Limit, Linear, ScaleCase, Shape

@@ -8,8 +8,8 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Final, Generic, TypeVar
 
 from fieldscribe.conditions import Condition
-from fieldscribe.model.numbers import Allowed, Enum, Special, Titles
-from fieldscribe.model.shape import Shape
+from fieldscribe.model.numbers import Enum, Special, Titles
+from fieldscribe.model.shape import Allowed, Shape
 
 Fact = TypeVar("Fact")
 
