@@ -32,28 +32,7 @@ from fieldscribe.targets.python.syntax import (
     word_attribute,
     wrapped,
 )
-from fieldscribe.targets.runtime_calls import Call, Hex, Name, Node, Scope, call, reader
-from fieldscribe.targets.runtime_calls.calls import (
-    attribute_of,
-    call_of,
-    class_facts,
-    command_text,
-    commands_of,
-    end_texts,
-    entry_text,
-    fields_of_texts,
-    flag_text,
-    limits_text,
-    members,
-    numbers_of,
-    old_attributes,
-    old_names_of,
-    readable_groups,
-    remarks_text,
-    sentence,
-    texts_of,
-    variants_call,
-)
+from fieldscribe.targets.runtime_calls import Call, Hex, Name, Node, Scope, call, calls, reader
 from fieldscribe.targets.runtime_calls.point_expressions import NUMBERED, addresses_of
 from fieldscribe.text import python_doc, python_string, upper
 from fieldscribe.wording import label, open_text
@@ -111,14 +90,14 @@ def enums_context(names: Identifiers, render: Render) -> dict[str, object]:
 
 
 def _enum(name: str, title: str, entries: tuple[Entry, ...]) -> EnumClass:
-    members = tuple((upper(entry.name), str(entry.raw), python_doc(entry_text(entry))) for entry in entries)
+    members = tuple((upper(entry.name), str(entry.raw), python_doc(calls.entry_text(entry))) for entry in entries)
     return EnumClass(name, f"class {name}(NamedNumber):", docstring((_sentence(title),)), members)
 
 
 def _word(point: Point, names: Identifiers) -> EnumClass:
     name, classes = names.word_class(point), [names.field_class(point, flag.name) for flag in point.flags]
     bits = tuple(
-        (upper(flag.name), f"0x{mask_of(flag.width, flag.low):04X}", python_doc(flag_text(flag)))
+        (upper(flag.name), f"0x{mask_of(flag.width, flag.low):04X}", python_doc(calls.flag_text(flag)))
         for flag in point.flags
     )
     readers = tuple(
@@ -149,7 +128,7 @@ def _composer(point: Point, classes: Sequence[str | None]) -> tuple[tuple[str, .
 
 
 def _sentence(text: str) -> str:
-    return sentence(python_doc(text))
+    return calls.sentence(python_doc(text))
 
 
 # The points module.
@@ -166,15 +145,15 @@ def points_context(device: Device, names: Identifiers, render: Render) -> dict[s
     scope.runtime("PointTable")
     attributes = Attributes(scope, render)
     titles = {group.name: comment(f"{group.name}: {group.title['en']}") for group in device.groups}
-    groups = {group: list(map(attributes.of, found)) for group, found in members(device).items()}
-    commands = "".join([attributes.of_command(command, made) for command, made in commands_of(scope)])
-    profile, *facts = [laid_out(node, 4, f"{name}: ClassVar = ") for name, node in class_facts(scope).items()]
+    groups = {group: list(map(attributes.of, found)) for group, found in calls.members(device).items()}
+    commands = "".join([attributes.of_command(command, made) for command, made in calls.commands_of(scope)])
+    profile, *facts = [laid_out(node, 4, f"{name}: ClassVar = ") for name, node in calls.class_facts(scope).items()]
     return {
         "imports": _imports(scope.used - {"enums"}, family),
         "open_points": list(_open_points(device)),
         "uses_enums": "enums" in scope.used,
         "has_codes": "Codes" in scope.used,
-        "group_names": _group_names(readable_groups(device)),
+        "group_names": _group_names(calls.readable_groups(device)),
         "profile": profile,
         "facts": facts,
         "groups": [(titles.get(group, comment(group)), "".join(texts)) for group, texts in groups.items() if texts],
@@ -233,7 +212,7 @@ class Attributes:
         limited = key, id(point.allowed)
         limits = self._limits.get(limited) or self._limits.setdefault(limited, _limits_of(point, scope))
         remarks = self._remarks.get(key) or self._remarks.setdefault(
-            key, (remarks_text(point, scope, _KEEP), _errata(point, scope))
+            key, (calls.remarks_text(point, scope, _KEEP), _errata(point, scope))
         )
         fields = self._fields(point, limits, remarks)
         whole = key, tuple(map(len, fields[_FREE:]))
@@ -243,12 +222,13 @@ class Attributes:
         """Return the attribute of points that have one name in different variants."""
         variant, first = next(iter(points.items()))
         doc = docstring(wrapped(python_doc(f"{first.title['en']}, as the device's {variant.axis} has it.")))
-        made = variants_call(points, self._scope)
-        return self._text(attribute(first.name), made, doc, old_names_of(points))
+        made = calls.variants_call(points, self._scope)
+        return self._text(attribute(first.name), made, doc, calls.old_names_of(points))
 
     def of_command(self, command: Command | SteppedCommand, made: Call) -> str:
         """Return the attribute of a command."""
-        return self._text(self._scope.commands[command.name], made, docstring((python_doc(command_text(command)),)))
+        text = python_doc(calls.command_text(command))
+        return self._text(self._scope.commands[command.name], made, docstring((text,)))
 
     def _text(self, name: str, made: Call, doc: str, old_names: tuple[str, ...] = ()) -> str:
         """Return the text of an attribute: its name, the call that makes it, its docstring, its old names."""
@@ -260,24 +240,24 @@ class Attributes:
     def _fields(self, point: Point, limits: LimitTexts, remarks: tuple[str, list[str]]) -> tuple[str, ...]:
         """Return the texts that only this point has: attribute, docstring, then those of `PointFields`."""
         return (
-            attribute_of(point, self._scope),
+            calls.attribute_of(point, self._scope),
             _docstring(point.title["en"], limits[0], *remarks),
-            *texts_of(point, numbers_of(point, self._scope), limits[1], (python_string, leaf)),
+            *calls.texts_of(point, calls.numbers_of(point, self._scope), limits[1], (python_string, leaf)),
         )
 
     def _laid_out(self, point: Point, texts: Sequence[str]) -> str:
-        made = call_of(point, fields_of_texts(texts[2:], point), self._scope)
-        return self._text(texts[0], made, texts[1], old_attributes(point, self._scope))
+        made = calls.call_of(point, calls.fields_of_texts(texts[2:], point), self._scope)
+        return self._text(texts[0], made, texts[1], calls.old_attributes(point, self._scope))
 
 
 def _limits_of(point: Point, scope: Scope) -> LimitTexts:
-    return limits_text(point, scope), end_texts(point, leaf)
+    return calls.limits_text(point, scope), calls.end_texts(point, leaf)
 
 
 def _docstring(title: str, limits: str, remarks: str, errata: list[str]) -> str:
     """Return the lines of a docstring: title, limits, remarks, and the errata that change facts."""
     text = f"{title}: {limits}" if limits else title
-    lines = wrapped(python_doc(sentence(text) + remarks))
+    lines = wrapped(python_doc(calls.sentence(text) + remarks))
     return docstring(lines + errata)
 
 

@@ -10,23 +10,7 @@ from typing import NamedTuple
 from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.model import Device, Entry, Flag, Point
 from fieldscribe.targets.placeholders import TextTemplates
-from fieldscribe.targets.runtime_calls import Call, Hex, Name, Node, Scope, call, family_calls, reader
-from fieldscribe.targets.runtime_calls.calls import (
-    call_of,
-    class_facts,
-    command_text,
-    commands_of,
-    end_texts,
-    entry_text,
-    fields_of_texts,
-    flag_text,
-    limits_text,
-    numbers_of,
-    readable_groups,
-    remarks_text,
-    sentence,
-    texts_of,
-)
+from fieldscribe.targets.runtime_calls import Call, Hex, Name, Node, Scope, call, calls, family_calls, reader
 from fieldscribe.targets.typescript.syntax import (
     Identifiers,
     Layout,
@@ -108,7 +92,7 @@ def _made(device: Device) -> list[Point]:
 
 
 def _numbers(points: list[Point], scope: Scope) -> list[str]:
-    return sorted({numbers_of(point, scope) for point in points} - {""})
+    return sorted({calls.numbers_of(point, scope) for point in points} - {""})
 
 
 def _old_names(point: Point) -> tuple[str, ...]:
@@ -127,13 +111,15 @@ class Points:
     def text(self, point: Point) -> str:
         """Return the constant of a point."""
         leaf = self.layout.leaf
-        own = texts_of(point, numbers_of(point, self.scope), end_texts(point, leaf), (js_string, leaf))
+        own = calls.texts_of(
+            point, calls.numbers_of(point, self.scope), calls.end_texts(point, leaf), (js_string, leaf)
+        )
         fields = (attribute(point.item), js_string(point.name), *own)
         key = self._keys[id(point)], len(fields)
         return self._texts.fill(key, fields, lambda fields: self._laid_out(point, fields))
 
     def _laid_out(self, point: Point, texts: Sequence[str]) -> str:
-        made = call_of(point, fields_of_texts(texts[2:], point), self.scope)
+        made = calls.call_of(point, calls.fields_of_texts(texts[2:], point), self.scope)
         maker, layout = self.layout.maker(made.name), self.layout
         facts: dict[str, Node] = {"name": Name(texts[1])}
         facts |= {} if point.variant is None else {"item": point.item}
@@ -149,18 +135,20 @@ class Points:
 
     def declared(self, point: Point) -> Declared:
         """Return the declaration of a point."""
-        scope, limits = self.scope, limits_text(point, self.scope)
+        scope, limits = self.scope, calls.limits_text(point, self.scope)
         kind = type_of(point, family_calls(scope.device).maker(point), scope)
         title = f"{point.title['en']}: {limits}" if limits else point.title["en"]
-        doc = doc_lines(js_comment(f"{sentence(title)}{remarks_text(point, scope, _KEEP)}{self._errata(point)}"))
+        doc = doc_lines(
+            js_comment(f"{calls.sentence(title)}{calls.remarks_text(point, scope, _KEEP)}{self._errata(point)}")
+        )
         return Declared(attribute(point.item), doc, kind, _old_names(point))
 
     def commands(self) -> Iterator[tuple[str, Declared]]:
         """Yield the constants of the commands."""
-        for command, made in commands_of(self.scope):
+        for command, made in calls.commands_of(self.scope):
             name = self.scope.commands[command.name]
             text = f"export const {name} = {lazily(self.layout.laid_out(made, 0))}"
-            doc = doc_lines(js_comment(command_text(command)))
+            doc = doc_lines(js_comment(calls.command_text(command)))
             yield f"{text};\n", Declared(name, doc, _command_type(made))
 
     def _errata(self, point: Point) -> str:
@@ -171,7 +159,7 @@ class Points:
 
 def type_of(point: Point, maker: str, scope: Scope) -> str:
     """Return the type of a point: `ReadWrite<number, { limits: "maximumFrequency" }>`."""
-    numbers = numbers_of(point, scope)
+    numbers = calls.numbers_of(point, scope)
     value, taken = _values(point, numbers)
     codes = [js_string(special.name) for special in point.specials]
     if codes:
@@ -242,7 +230,7 @@ def device_context(device: Device, names: Identifiers) -> dict[str, object]:
     """Return the context of the main module: imports by module, facts of the class, and options."""
     family, scope = in_typescript(device), Scope.of(device, names, attribute)
     layout = Layout(family.makers, camel)
-    facts = {name.lower(): node for name, node in class_facts(scope).items()}
+    facts = {name.lower(): node for name, node in calls.class_facts(scope).items()}
     facts |= {"version": device.version, "digest": device.digest}
     imports: dict[str, list[str]] = {}
     for name in sorted({family.device, "defineDevice", *map(layout.maker, scope.used)}):
@@ -260,7 +248,7 @@ def device_context(device: Device, names: Identifiers) -> dict[str, object]:
         "choices": [(f"{name}?", kind) for name, kind in options],
         "settings": list(family.options),
         "device": js_string(device.id),
-        "groups": " | ".join(map(js_string, readable_groups(device))) or "never",
+        "groups": " | ".join(map(js_string, calls.readable_groups(device))) or "never",
     }
 
 
@@ -281,7 +269,7 @@ def enums_context(names: Identifiers) -> dict[str, object]:
 
 def _named(name: str, title: str, entries: tuple[Entry, ...]) -> dict[str, object]:
     """Return names for numbers; each entry is its name, number and comment."""
-    shown = [(upper(entry.name), str(entry.raw), js_comment(entry_text(entry))) for entry in entries]
+    shown = [(upper(entry.name), str(entry.raw), js_comment(calls.entry_text(entry))) for entry in entries]
     return {"name": name, "comment": _sentence(title), "entries": shown}
 
 
@@ -297,7 +285,7 @@ def _word(point: Point, names: Identifiers, layout: Layout) -> dict[str, object]
     name = names.word_class(point)
     made = call("wordOf", name, readers, *([facts] if facts else []))
     flags = tuple(
-        (word_attribute(flag), _type(flag, classes[flag.name]), js_comment(flag_text(flag)), flag.name in free)
+        (word_attribute(flag), _type(flag, classes[flag.name]), js_comment(calls.flag_text(flag)), flag.name in free)
         for flag in point.flags
     )
     text = f"export const {name} = {lazily(layout.laid_out(made, 0))};"
@@ -318,4 +306,4 @@ def _type(flag: Flag, numbers: str | None) -> str:
 
 
 def _sentence(text: str) -> tuple[str, ...]:
-    return doc_lines(js_comment(sentence(text)))
+    return doc_lines(js_comment(calls.sentence(text)))
