@@ -129,9 +129,20 @@ def _bomb() -> bytes:
     return data.getvalue()[:entry] + b"\xff\xff\xff\x7f" + data.getvalue()[entry + 4 :]
 
 
+def _long_cell() -> bytes:
+    """Return a workbook with a cell that is too long."""
+    from openpyxl import Workbook
+
+    book, data = Workbook(write_only=True), io.BytesIO()
+    book.create_sheet("Coils").append(("Address", "a" * 8_001))
+    book.save(data)
+    return data.getvalue()
+
+
 @pytest.mark.parametrize(
     ("name", "content", "message"),
     [
+        ("cell.xlsx", _long_cell, "cell.xlsx:1: a cell has more than 8000 characters"),
         ("a.xlsx", b"no archive", "the archive is broken"),
         ("bomb.xlsx", _bomb, "unpacks to more than 64 MiB"),
         ("empty.xlsx", b"PK\x05\x06" + bytes(18), "this is no workbook"),
