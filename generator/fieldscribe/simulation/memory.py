@@ -14,10 +14,10 @@ from typing import Protocol, TypeVar
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError, Settings, setting_of
 from fieldscribe.arithmetic.texts import first_date, pattern_of_text, text_of
-from fieldscribe.arithmetic.words import insert, joined, with_fixed, words_of
+from fieldscribe.arithmetic.words import insert, joined, raw_of, with_fixed, words_of
 from fieldscribe.conversation.encoding import read_value
 from fieldscribe.conversation.selection import choose_point
-from fieldscribe.diagnostics import UnclearError
+from fieldscribe.diagnostics import RefusedError, UnclearError
 from fieldscribe.model import Point
 from fieldscribe.simulation.layout import Area, Cells, Layout
 
@@ -346,6 +346,12 @@ def _plain(value: Fraction) -> int | float:
     return int(value) if value.denominator == 1 else float(value)
 
 
+def _is_coded(point: Point, raw: int) -> bool:
+    """Return False for a number that the coding of a point cannot express."""
+    words = words_of(point, raw) if point.bits is None else [insert(point, 0, raw)]
+    return not point.coding or raw_of(point, words) == raw
+
+
 def raw_for(point: Point, value: Value | Fraction | Decimal, settings: codec.Settings) -> int:
     """Return the raw number of a value. Raises ValueError if the bits cannot hold it, or the point has no such name."""
     try:
@@ -358,9 +364,9 @@ def raw_for(point: Point, value: Value | Fraction | Decimal, settings: codec.Set
             raw = codec.encode(point, Fraction(value), settings)
     except UnclearError as error:
         raise ValueError(f"{error.message}; {error.hint}".rstrip("; ")) from None
-    except (CodecError, OverflowError) as error:
+    except (CodecError, OverflowError, RefusedError) as error:
         raise ValueError(f"{point.name} cannot hold {value}: {error}") from None
-    if point.text is None and not point.least <= raw <= point.greatest:
+    if point.text is None and not (point.least <= raw <= point.greatest and _is_coded(point, raw)):
         span = f"{point.least}..{point.greatest}"
         raise ValueError(f"{point.name} cannot hold {value}: raw {raw} is outside {span}")
     return raw
