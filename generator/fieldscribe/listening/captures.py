@@ -20,7 +20,7 @@ _ENOUGH = 1000
 """A file that starts with this many lines without a frame is no log."""
 _NO_FRAME = (
     "it has no frame",
-    "captures are pcap, pcapng, BLF, ASC, logs of candump, hexadecimal bytes with times, traces of `simulate` without CAN",
+    "captures are pcap, pcapng, BLF, ASC, logs of candump, bytes as hexadecimals, traces of `simulate` without CAN",
 )
 _BLF, _ASC = b"LOGG", b"date"
 """The first bytes of BLF and of ASC files."""
