@@ -54,8 +54,6 @@ def read_behaviour(device_file: Path, device: Device, report: Report) -> Rules |
             findings.error("bad-behaviour", "a behaviour is one document", documents[0].span(), "remove the `---`")
         if check_shape(documents[0], BEHAVIOUR, findings):
             rules = _Reader(documents[0], device, findings).rules()
-    elif source is not None and not findings.has_errors:
-        findings.error("bad-behaviour", "the file is empty", Span(source.name, 1, 1), "write `behaviour` and `moves`")
     report.extend(findings)
     return None if findings.has_errors else rules
 
