@@ -64,9 +64,9 @@ def test_first_values() -> None:
             name: value for name, value in STARTS.items() if value is not None
         }
         assert 12 <= values["narrow"] <= 18  # type: ignore[operator]  # from a quarter to three quarters
-        assert 125 <= values["real"] <= 175  # type: ignore[operator]
+        assert 125 <= values["real"] <= 175  # type: ignore[operator]  # likewise
         assert 25 <= values["wide"] <= 75  # type: ignore[operator]  # of 0 to 100 where only the bits set bounds
-        assert values["top"] <= values["given"]  # type: ignore[operator]
+        assert values["top"] <= values["given"]  # type: ignore[operator]  # likewise
         assert device_of(seed=seed).memory.areas["holding", 0][18] >> 12 == 5
 
 
@@ -78,7 +78,7 @@ def test_a_value(name: str, written: object, held: object) -> None:
         with pytest.raises((ValueError, KeyError), match=held):
             device.values[name] = written  # type: ignore[assignment]  # as a test writes it
     else:
-        device.values[name] = written  # type: ignore[assignment]
+        device.values[name] = written  # type: ignore[assignment]  # likewise
         assert device.values[name] == held
 
 
