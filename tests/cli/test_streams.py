@@ -15,7 +15,7 @@ from typing import NamedTuple
 import pytest
 from fieldscribe import pipeline
 from fieldscribe.cli import main
-from fieldscribe.conversation import meanings, point_items
+from fieldscribe.conversation import meanings
 from support.described import shipped
 from support.places import ROOT
 
@@ -135,8 +135,7 @@ def test_what_is_remembered_gives_way_and_nothing_else_changes(
 ) -> None:
     text = log(200)
     told = decode("-", given=text)
-    for module, limit in ((point_items, "_MOST_ITEMS"), (meanings, "_MOST_SETTINGS")):
-        monkeypatch.setattr(module, limit, 1)
+    monkeypatch.setattr(meanings, "_MOST_SETTINGS", 1)
     assert decode("-", given=text) == told
 
 

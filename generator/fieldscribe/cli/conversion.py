@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
 from io import BufferedIOBase
 from itertools import groupby
-from typing import TypeVar, cast
+from typing import cast
 
 from fieldscribe.cli.common import (
     StopError,
@@ -23,7 +23,7 @@ from fieldscribe.cli.common import (
     usage_error,
 )
 from fieldscribe.cli.frame_options import add_family_options, add_framing, add_with, options_of, placed, settings_of
-from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE, collect_rarely, is_coloured, print_lines, print_rows
+from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE, collect_rarely, print_lines, row_writer
 from fieldscribe.conversation.decoder import StreamDecoder, frame_decoder
 from fieldscribe.conversation.encoding import Encoded, encode_point, frames_for
 from fieldscribe.conversation.selection import choose_point
@@ -60,7 +60,6 @@ _MOST_MESSAGES = 10
 """The most lines without a frame that get a message each."""
 _LONGEST_LINE = 1 << 16
 """The most bytes of a line that are read; a longer line ends in dots and so is not a frame."""
-T = TypeVar("T")
 
 
 def add_decode_arguments(parser: ArgumentParser) -> None:
@@ -172,24 +171,16 @@ class _Printer:
 
     def __init__(self, device: Device) -> None:
         labels = {bits_label(flag.low + flag.width - 1, flag.low) for point in device.points for flag in point.flags}
-        self._width = max(map(len, labels | {"Checksum"}))
+        self._title, self._row = row_writer(max(map(len, labels | {"Checksum"})))
         self._device = device.id
         self._separator = ""
-        self._coloured = is_coloured(sys.stdout)
 
     def frame(self, result: FrameResult) -> None:
         """Print the next frame."""
         frame = result.frame
         heading = spaced(frame) if isinstance(frame, bytes) else visible(frame.text)
-        if self._coloured:
-            sys.stdout.write(self._separator)
-            print_rows(heading, _rows(result, _pair), width=self._width)
-        else:
-            sys.stdout.write("\n".join([self._separator + heading, *_rows(result, self._line), ""]))
+        sys.stdout.write("\n".join([self._separator + self._title(heading), *_rows(result, self._row), ""]))
         self._separator = "\n"
-
-    def _line(self, label: str, text: str) -> str:
-        return f"  {label:<{self._width}}  {text}"
 
     def end(self, nothing: str) -> None:
         """Print the end of the output; `nothing` is a text for an output without frames."""
@@ -197,17 +188,13 @@ class _Printer:
             sys.stdout.write(f"{nothing}\n")
 
 
-def _pair(label: str, text: str) -> tuple[str, str]:
-    return label, text
-
-
-def _rows(result: FrameResult, row: Callable[[str, str], T]) -> list[T]:
+def _rows(result: FrameResult, row: Callable[[str, str], str]) -> list[str]:
     """Return what is printed of a frame, each as the row that `row` makes of its label and text."""
     rows = [row("Frame", visible(result.summary))]
     for item in result.items:
         rows.append(row("Says", visible(item.summary)))
         if item.bit_texts is not None and item.raw is not None:
-            rows += item.bit_texts.rows(item.raw, row)
+            rows += item.bit_texts.lines(item.raw, row)
         for doubt in item.doubts:
             rows.append(row("Doubt", visible(doubt)))
     if result.checks:

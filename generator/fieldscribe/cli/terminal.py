@@ -5,7 +5,8 @@ from __future__ import annotations
 import gc
 import os
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, TextIO
 
 if TYPE_CHECKING:
@@ -61,18 +62,18 @@ def print_lines(lines: Iterable[Line], stream: TextIO | None = None) -> None:
         stream.write("".join(_styled(styles.get(style, ""), piece) for style, piece in line) + "\n")
 
 
-def print_rows(heading: str, rows: Sequence[Row], width: int = 0) -> None:
-    """Print a heading and rows of label and text below it; a terminal gets long texts wrapped in their column.
+def print_rows(heading: str, rows: Sequence[Row]) -> None:
+    """Print a heading and rows of label and text below it; a terminal gets long texts wrapped in their column."""
+    title, row = row_writer(max([0, *(len(label) for label, _ in rows)]))
+    sys.stdout.write("\n".join([title(heading), *(row(*each).rstrip() for each in rows)]) + "\n")
 
-    `width` is the least width of the labels.
-    """
-    width = max([width, *(len(label) for label, _ in rows)])
-    if not is_coloured(sys.stdout):
-        margin, gap = " " * _MARGIN, " " * _GAP
-        lines = [heading, *(f"{margin}{label:<{width}}{gap}{text}".rstrip() for label, text in rows)]
-    else:
-        lines = [_styled("1", heading), *(line for label, text in rows for line in _wrapped(label, text, width))]
-    sys.stdout.write("\n".join(lines) + "\n")
+
+def row_writer(width: int) -> tuple[Callable[[str], str], Callable[[str, str], str]]:
+    """Return what writes a heading, and a row of label and text for standard output; `width` is that of the labels."""
+    if is_coloured(sys.stdout):
+        return partial(_styled, "1"), lambda label, text: "\n".join(_wrapped(label, text, width))
+    form = f"{' ' * _MARGIN}%-{width}s{' ' * _GAP}%s"
+    return str, lambda label, text: form % (label, text)
 
 
 def _wrapped(label: str, text: str, width: int) -> Iterable[str]:

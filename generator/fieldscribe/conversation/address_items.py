@@ -55,9 +55,9 @@ def _items_read(state: DecodeState, span: AddressSpan) -> list[Item]:
     plan = state.plans.get(place) or state.planned(place, _plan(state, span))
     words, here, items = span.words or (), None, list[Item]()
     plan.teach(state, words)
-    for make, (_, read, at) in plan.in_force(state):
-        if make is not None:
-            items.append(make(read(words)))
+    for formatter, read, at in plan.steps:
+        if formatter is not None:
+            items.append(formatter.item(read(words), state.settings))
         else:
             here = here or _SpanItems(state, span, taught=False)
             items += (here.items_at(at[0]) if len(at) == 1 else None) or here.unknown_items(at)
@@ -276,14 +276,14 @@ def _word_item(state: DecodeState, word: Word, point: Point) -> Item:
         finding = _fixed_finding(point, word.raw) if word.in_request else ""
         if not finding:
             return item
-        return item.but(summary=f"{item.summary}; {finding}", findings=(*item.findings, finding))
+        return item.but(statement=f"{item.summary}; {finding}", findings=(*item.findings, finding))
     words = {**state.words, word.address: word.raw}
     part = f"word {point.addresses.index(word.address) + 1} of {len(point.addresses)} = {hex_words((word.raw,))}"
     raw = _raw(point, words)
     if raw is None:
         return named_item(point, base, f"{part}; {sum(at not in words for at in point.addresses)} more words to come")
     item = state.value(point, base, raw)
-    return item.but(summary=f"{item.summary}; here {part}")
+    return item.but(statement=f"{item.summary}; here {part}")
 
 
 def _fixed_finding(point: Point, word: int) -> str:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import lru_cache, partial
+from functools import partial
 from typing import Any
 
 from fieldscribe.arithmetic.codec import setting_of
 from fieldscribe.conditions import absent
-from fieldscribe.conversation.point_items import MOST_SETTINGS, Base, PointFormatter, PointItem, english_title
+from fieldscribe.conversation.point_items import Base, PointFormatter, english_title
 from fieldscribe.conversation.selection import moved, same_meaning
 from fieldscribe.families import family
 from fieldscribe.families.decoded_frame import AddressSpan
@@ -152,18 +152,7 @@ class Plan:
     """How the words at one place become items. `taught` are the points that are settings for others."""
 
     def __init__(self, taught: Sequence[tuple[Point, Read]], steps: Sequence[Step]) -> None:
-        self.taught, self._steps = taught, steps
-        self._needs = list(dict.fromkeys(name for step in steps if step[0] for name in step[0].needs))
-        # typed: a special code equals the plain number, and is no quantity
-        self._under = lru_cache(MOST_SETTINGS, typed=True)(self._made_under)
-
-    def in_force(self, state: DecodeState) -> Sequence[tuple[Callable[[int], PointItem] | None, Step]]:
-        """Return the steps, each with the function that makes an item of the number under the present settings."""
-        return self._under(*map(state.settings.get, self._needs))
-
-    def _made_under(self, *values: Any) -> Sequence[tuple[Callable[[int], PointItem] | None, Step]]:
-        settings = {name: value for name, value in zip(self._needs, values, strict=True) if value is not None}
-        return [(step[0].under(settings) if step[0] else None, step) for step in self._steps]
+        self.taught, self.steps = taught, steps
 
     def teach(self, state: DecodeState, words: Sequence[int]) -> None:
         """Let the state learn the settings in the words."""
@@ -250,7 +239,7 @@ class DecodeState:
 
     def value(self, point: Point, base: Base, raw: int, *, written: bool = False) -> Item:
         """Return a point with the meaning of its raw number."""
-        return self.formatter(point, base, written=written).under(self.settings)(raw)
+        return self.formatter(point, base, written=written).item(raw, self.settings)
 
     def formatter(self, point: Point, base: Base, *, written: bool = False) -> PointFormatter:
         """Return the formatter of a point at this place."""

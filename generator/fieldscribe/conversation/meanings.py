@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from functools import lru_cache, partial
-from typing import Any, NamedTuple, TypeVar
+from typing import NamedTuple
 
 from fieldscribe import wording
 from fieldscribe.arithmetic import codec
@@ -26,7 +26,6 @@ _MOST_SETTINGS = 256
 """How many numbers of the points that a scale needs are remembered, with what they make of it."""
 _GROUP = 8
 """The most bits of neighbouring flags whose texts are cached together."""
-T = TypeVar("T")
 
 
 class Meaning(NamedTuple):
@@ -164,8 +163,8 @@ class FlagTexts:
     def __init__(self, point: Point) -> None:
         lowest = point.bits[1] if point.bits else 0
         self._named: list[tuple[int, Callable[[int], _Texts]]] = []
-        self._groups: list[tuple[int, Callable[[int], list[Bits]], Callable[..., Any]]] = []
-        """Bits that share a cache: their mask, and what returns the bits of a number, and their rows."""
+        self._groups: list[tuple[int, Callable[[int], list[Bits]], Callable[..., str]]] = []
+        """Bits that share a cache: their mask, and what returns the bits of a number, and their rows as text."""
         flags: list[Flag] = []
         for flag, following in zip(point.flags, (*point.flags[1:], None), strict=True):
             flags.append(flag)
@@ -180,9 +179,10 @@ class FlagTexts:
             self._add(sum(1 << bit for bit in bits), partial(_nameless_bits, bits, lowest))
 
     def _add(self, mask: int, bits: Callable[[int], list[Bits]]) -> None:
-        """Add a group of bits to those that `bits` and `rows` explain."""
+        """Add a group of bits to those that `bits` and `lines` explain."""
         bits = lru_cache(1 << _GROUP)(bits)
-        self._groups.append((mask, bits, lru_cache(1 << _GROUP)(lambda raw, row: [row(*one.row) for one in bits(raw)])))
+        lines = lru_cache(1 << _GROUP)(lambda raw, row: "\n".join([row(*one.row) for one in bits(raw)]))
+        self._groups.append((mask, bits, lines))
 
     def sentence(self, raw: int) -> str:
         """Return all flags in one sentence: those that are true first."""
@@ -203,9 +203,9 @@ class FlagTexts:
         """Return each flag, and each set bit that the manual does not name."""
         return [one for mask, bits, _ in self._groups for one in bits(raw & mask)]
 
-    def rows(self, raw: int, row: Callable[[str, str], T]) -> list[T]:
-        """Return the same, each as the row that `row` makes of its label and text."""
-        return [one for mask, _, rows in self._groups for one in rows(raw & mask, row)]
+    def lines(self, raw: int, row: Callable[[str, str], str]) -> list[str]:
+        """Return the same as texts of one or more rows; `row` makes one of a label and a text."""
+        return [text for mask, _, lines in self._groups if (text := lines(raw & mask, row))]
 
 
 _Texts = tuple[str, str]

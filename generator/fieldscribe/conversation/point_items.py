@@ -7,14 +7,11 @@ down. Those that lie in range are listed; nothing is ranked or inferred.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from fractions import Fraction
-from functools import lru_cache, partial
-from math import inf
-from typing import Any
+from types import MappingProxyType
 
 from fieldscribe.arithmetic.codec import Settings
 from fieldscribe.arithmetic.words import number_of, pattern_of, reader_of, words_of
-from fieldscribe.conversation.meanings import Meanings, Meant, raw_form
+from fieldscribe.conversation.meanings import Meaning, Meanings, raw_form
 from fieldscribe.conversation.refusals import in_range, range_fault, range_of, written_remarks
 from fieldscribe.conversation.selection import absence
 from fieldscribe.families.frame_results import Item
@@ -22,20 +19,14 @@ from fieldscribe.model import Device, Point
 from fieldscribe.text import line
 from fieldscribe.wording import label, title_text
 
+_NO_SETTINGS: Settings = MappingProxyType({})
+
 Base = tuple[str, int, int]
 """Space or telegram, address, and number of addresses of an item."""
 
-MOST_SETTINGS = 16
-"""How many numbers of the points that items need are remembered, with the items under them."""
-_MOST_ITEMS, _FEW_BITS = 64, 8
-"""How many items of one point are cached, for a stream may last for days; all of them if it has few bits."""
-
 
 class PointFormatter:
-    """Turns the raw numbers of one point into items.
-
-    On a bus most numbers come again, so items are cached, unless they rest on other points.
-    """
+    """Turns the raw numbers of one point into items."""
 
     def __init__(
         self,
@@ -50,7 +41,6 @@ class PointFormatter:
         self.device, self.point, self.base, self.written = device, point, base, written
         doubting = neighbours is not None and point.text is None and point.generated
         self.doubts = Doubts(device, point, neighbours) if neighbours is not None and doubting else None
-        self.sure: tuple[float, float] = (-inf, inf) if self.doubts is None else self.doubts.sure
         self.needs = point.arguments if written or neighbours is not None else point.scale_arguments
         self.head, self.title = f"{label(point)} = ", english_title(point)
         self.name, self.raw_text, self.is_text = point.item, raw_form(point), point.text is not None
@@ -59,18 +49,19 @@ class PointFormatter:
         """Returns where the numbers come that are missing."""
         self.absent = absence(device, point) if written else ""
         self.meanings = Meanings(device, point)
-        # typed: a special code equals the plain number, and is no quantity
-        self._under = lru_cache(MOST_SETTINGS, typed=True)(self._made_under)
-        most = 1 << point.width if point.width <= _FEW_BITS else _MOST_ITEMS
-        self._always = lru_cache(most)(self._made_under(*[None for _ in self.needs]))
+        self._meant = self.meanings.under(_NO_SETTINGS)
+        self._last_raw: int | None = None
+        self._last: PointItem
+        """The last item, if it needs no numbers of other points: on a bus most numbers come again."""
 
-    def under(self, settings: Settings) -> Callable[[int], PointItem]:
-        """Return the function that gives the item of a raw number under these settings of other points."""
-        return self._under(*[settings.get(name) for name in self.needs]) if self.needs else self._always
-
-    def _made_under(self, *values: int | Fraction | None) -> Callable[[int], PointItem]:
-        settings = {name: value for name, value in zip(self.needs, values, strict=True) if value is not None}
-        return partial(PointItem, self, settings, self.meanings.under(settings))
+    def item(self, raw: int, settings: Settings) -> PointItem:
+        """Return the item of a raw number under these settings of other points."""
+        if self.needs:
+            settings = {name: settings[name] for name in self.needs if name in settings}
+            return PointItem(self, raw, self.meanings.under(settings)(raw), settings)
+        if raw != self._last_raw:
+            self._last_raw, self._last = raw, PointItem(self, raw, self._meant(raw), _NO_SETTINGS)
+        return self._last
 
     def value(self, raw: int, settings: Settings) -> str:
         """Return the meaning of a raw number, and the number itself: `5 Hz (raw 500 = 01F4h)`."""
@@ -78,49 +69,40 @@ class PointFormatter:
 
 
 class PointItem(Item):
-    """A point with its raw number and its meaning. Summary and doubts wait until somebody asks: many users do not."""
+    """A point with its raw number and its meaning. The summary waits until somebody asks: many users do not."""
 
-    __slots__ = ("_formatter", "_hint", "_number", "_remark", "_settings")
+    __slots__ = ("_formatter", "_hint", "_number", "_remark")
 
-    def __init__(self, formatter: PointFormatter, settings: Settings, meant: Meant, number: int) -> None:
-        self._formatter, self._number, self._settings = formatter, number, settings
+    def __init__(self, formatter: PointFormatter, number: int, meaning: Meaning, settings: Settings) -> None:
+        self._formatter, self._number = formatter, number
         self.space, self.address, self.count = formatter.base
         self.point, self.code, self.rests_on = formatter.name, formatter.code, formatter.rests_on
         self.raw = None if formatter.is_text else number
-        self.meaning, self.value, self.missing, self._hint, self.bit_texts = meant(number)
-        self.carries = self.subject = self._remark = ""
+        self.meaning, self.value, self.missing, self._hint, self.bit_texts = meaning
+        self.statement = self.carries = self.subject = self._remark = ""
         self.findings: tuple[str, ...] = ()
+        self.doubts: tuple[str, ...] = ()
         if formatter.written:
             finding, unchecked = formatter.absent, ""
             if not finding:
                 finding, unchecked = written_remarks(formatter.device, formatter.point, number, settings)
             self.findings, self._remark = (finding,) if finding else (), finding or unchecked
-        if formatter.sure[0] <= number <= formatter.sure[1]:
-            self.doubts = ()
+        doubts = formatter.doubts
+        if doubts is not None and not doubts.fits(number, settings):
+            self.doubts = doubts.of(number, settings, self.meaning)[1 if self.findings else 0 :]
 
-    def __getattr__(self, name: str) -> Any:
-        """Make the summary or the doubts, once."""
-        if name == "summary":
-            self.summary = self._summarised()
-            return self.summary
-        if name == "doubts":
-            self.doubts = self._doubted()
-            return self.doubts
-        raise AttributeError(name)
-
-    def _summarised(self) -> str:
+    @property
+    def summary(self) -> str:
+        """The point, its meaning, its raw number, its title and what is missing, in one line; made once."""
+        if self.statement:
+            return self.statement
         form, remark, hint = self._formatter, self._remark, self._hint
         number, rest = form.raw_text(self._number), form.title
         if remark or hint or not rest:
             rest = "; ".join(text for text in (form.title, remark, hint) if text)
         text = f"{number}: {rest}" if self.bit_texts else f"{self.meaning} ({number}): {rest}"
-        return line(form.head + text) + (form.sources(self.missing) if self.missing else "")
-
-    def _doubted(self) -> tuple[str, ...]:
-        doubts = self._formatter.doubts
-        if doubts is None or doubts.fits(self._number, self._settings):
-            return ()
-        return doubts.of(self._number, self._settings, self.meaning)[1 if self.findings else 0 :]
+        self.statement = line(form.head + text) + (form.sources(self.missing) if self.missing else "")
+        return self.statement
 
 
 def english_title(point: Point) -> str:
@@ -137,8 +119,7 @@ class Doubts:
 
     def __init__(self, device: Device, point: Point, neighbours: Neighbours) -> None:
         self._device, self._point, self.fits = device, point, _range_test(point)
-        self.sure = next(iter(_ranges(point)[0]), (1, 0))
-        """`fits` returns True if a number lies in range; no number from `sure` is out of range."""
+        """`fits` returns True if a number lies in range."""
         self._meanings, self._range = Meanings(device, point), ""
         self._is_plain = point.form in ("scaled", "integer") and not (point.limit_arguments or point.fixed)
         self._read, self._swaps = reader_of(point), point.words > 1
@@ -209,6 +190,9 @@ def _ranges(point: Point) -> tuple[list[tuple[int, int]], bool]:
 def _range_test(point: Point) -> Callable[[int, Settings], bool]:
     """Return a function that does for this point what `in_range` does, and is quicker."""
     ends, complete = _ranges(point)
+    if len(ends) == 1:
+        ((low, high),) = ends
+        return lambda raw, settings: low <= raw <= high or (not complete and in_range(point, raw, settings))
     return lambda raw, settings: (
         any(low <= raw <= high for low, high in ends) or (not complete and in_range(point, raw, settings))
     )

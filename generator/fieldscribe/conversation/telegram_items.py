@@ -72,16 +72,16 @@ def piece_items(state: DecodeState, piece: Piece) -> list[Item]:
     plan.teach(state, words)
     items: list[Item] = []
     incomplete: dict[str, tuple[PointFormatter, int]] = {}
-    for make, (formatter, read, place) in plan.in_force(state):
+    for formatter, read, place in plan.steps:
         raw = read(words)
-        if make is None or formatter is None:
+        if formatter is None:
             items.append(_nameless_item(layout, place, raw))
             continue
         if raw is None:
             text = _incomplete_text(state, layout, formatter)
             items.append(named_item(formatter.point, formatter.base, text, rests_on=formatter.rests_on))
             continue
-        item = make(raw)
+        item = formatter.item(raw, state.settings)
         if item.missing:
             incomplete[formatter.name] = formatter, raw
         elif formatter.name in state.incomplete:
@@ -164,8 +164,8 @@ def _completed_items(state: DecodeState) -> Iterator[Item]:
     for name, (formatter, raw) in list(state.incomplete.items()):
         if state.changed.isdisjoint(formatter.needs):
             continue
-        item = formatter.under(state.settings)(raw)
+        item = formatter.item(raw, state.settings)
         if not item.missing:
             del state.incomplete[name]
-            yield item.but(summary=f"from a frame before: {item.summary}")
+            yield item.but(statement=f"from a frame before: {item.summary}")
     state.changed.clear()

@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields
 from types import MappingProxyType
-from typing import Any, NamedTuple, Protocol, TypeVar
+from typing import Any, NamedTuple, Protocol
 
 from fieldscribe.diagnostics import RefusedError
 from fieldscribe.model import Bus, Point
 from fieldscribe.wording import label
 from fieldscribe.wording.numbers import units_text
-
-T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,8 +57,8 @@ class BitTexts(Protocol):
     def bits(self, raw: int) -> list[Bits]:
         """Return each flag, and each set bit that the manual does not name."""
 
-    def rows(self, raw: int, row: Callable[[str, str], T]) -> list[T]:
-        """Return the same, each as the row that `row` makes of its label and text."""
+    def lines(self, raw: int, row: Callable[[str, str], str]) -> list[str]:
+        """Return the same as texts of one or more rows; `row` makes one of a label and a text."""
 
     def sentence(self, raw: int) -> str:
         """Return the same in one sentence."""
@@ -83,7 +81,7 @@ class Item:
     space: str
     address: int
     count: int
-    summary: str
+    statement: str
     point: str | None = None
     code: str | None = None
     raw: int | None = None
@@ -100,7 +98,13 @@ class Item:
 
     def but(self, **changes: Any) -> Item:
         """Return the same, except for these facts."""
-        return Item(**{fact.name: getattr(self, fact.name) for fact in fields(Item)} | changes)
+        facts = {fact.name: getattr(self, fact.name) for fact in fields(Item) if fact.name != "statement"}
+        return Item(**{"statement": self.summary, **facts, **changes})
+
+    @property
+    def summary(self) -> str:
+        """The statement, which some items make only when somebody asks."""
+        return self.statement
 
     @property
     def about(self) -> str:
