@@ -192,7 +192,7 @@ def _rows(result: FrameResult, row: Callable[[str, str], str]) -> list[str]:
     """Return what is printed of a frame, each as the row that `row` makes of its label and text."""
     rows = [row("Frame", visible(result.summary))]
     for item in result.items:
-        rows.append(row("Says", visible(item.summary)))
+        rows.append(row("Says", item.summary))
         if item.bit_texts is not None and item.raw is not None:
             rows += item.bit_texts.lines(item.raw, row)
         for doubt in item.doubts:

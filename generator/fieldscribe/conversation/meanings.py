@@ -31,6 +31,7 @@ _GROUP = 8
 class Meaning(NamedTuple):
     """The meaning of a raw number: its text, the exact value of a quantity, and what is missing or unusual.
 
+    The text is a line as `line` makes it, except for what a device sent as text.
     `flags` explains the bits of a word; the text is then empty.
     """
 
@@ -88,7 +89,7 @@ class Meanings:
 
     def _exact_quantity(self, ratio: Fraction, offset: Fraction) -> Meant:
         """Return a function that does what `_quantity` does, with the rule worked out in integers."""
-        display, unit = self._point.display, f" {symbol}" if (symbol := self._point.unit.symbol) else ""
+        display, unit = self._point.display, f" {symbol}" if (symbol := line(self._point.unit.symbol)) else ""
         rule = (offset.denominator * ratio.denominator, -offset.numerator * ratio.denominator)
         multiply, add, divide = Line.reduced(*rule, offset.denominator * ratio.numerator)
         places = decimal_places(divide)
@@ -122,7 +123,7 @@ class Meanings:
             text = _float_text(point, raw) if point.info.floating else amount(value)
         if point.epoch and (time := date_of(point.epoch, value)):
             return Meaning(time, number_text(value))
-        return Meaning(wording.with_unit(text, point), number_text(value))
+        return Meaning(line(wording.with_unit(text, point)), number_text(value))
 
 
 def _always(meaning: Meaning) -> Meant:

@@ -42,7 +42,7 @@ class PointFormatter:
         doubting = neighbours is not None and point.text is None and point.generated
         self.doubts = Doubts(device, point, neighbours) if neighbours is not None and doubting else None
         self.needs = point.arguments if written or neighbours is not None else point.scale_arguments
-        self.head, self.title = f"{label(point)} = ", english_title(point)
+        self.head, self.title = f"{line(label(point))} = ", line(english_title(point))
         self.name, self.raw_text, self.is_text = point.item, raw_form(point), point.text is not None
         self.code, self.rests_on = point.code, tuple(self.needs)
         self.sources: Callable[[tuple[str, ...]], str] = lambda _missing: ""
@@ -57,7 +57,6 @@ class PointFormatter:
     def item(self, raw: int, settings: Settings) -> PointItem:
         """Return the item of a raw number under these settings of other points."""
         if self.needs:
-            settings = {name: settings[name] for name in self.needs if name in settings}
             return PointItem(self, raw, self.meanings.under(settings)(raw), settings)
         if raw != self._last_raw:
             self._last_raw, self._last = raw, PointItem(self, raw, self._meant(raw), _NO_SETTINGS)
@@ -89,7 +88,8 @@ class PointItem(Item):
             self.findings, self._remark = (finding,) if finding else (), finding or unchecked
         doubts = formatter.doubts
         if doubts is not None and not doubts.fits(number, settings):
-            self.doubts = doubts.of(number, settings, self.meaning)[1 if self.findings else 0 :]
+            known = {name: settings[name] for name in formatter.needs if name in settings}
+            self.doubts = doubts.of(number, known, self.meaning)[1 if self.findings else 0 :]
 
     @property
     def summary(self) -> str:
@@ -98,10 +98,12 @@ class PointItem(Item):
             return self.statement
         form, remark, hint = self._formatter, self._remark, self._hint
         number, rest = form.raw_text(self._number), form.title
-        if remark or hint or not rest:
-            rest = "; ".join(text for text in (form.title, remark, hint) if text)
+        if remark or hint:
+            rest = line("; ".join(text for text in (form.title, remark, hint) if text))
         text = f"{number}: {rest}" if self.bit_texts else f"{self.meaning} ({number}): {rest}"
-        self.statement = line(form.head + text) + (form.sources(self.missing) if self.missing else "")
+        if form.is_text or not rest:
+            text = line(text)
+        self.statement = form.head + text + (form.sources(self.missing) if self.missing else "")
         return self.statement
 
 

@@ -1,7 +1,7 @@
 """Items of telegrams: process data with masks, and telegrams in several frames."""
 
 from collections.abc import Iterator, Sequence
-from functools import partial
+from functools import lru_cache, partial
 from operator import itemgetter
 
 from fieldscribe.arithmetic.words import raw_of, reader_of
@@ -10,7 +10,11 @@ from fieldscribe.conversation.point_items import PointFormatter
 from fieldscribe.families.decoded_frame import Layout, Masks, Piece, ProcessData
 from fieldscribe.families.frame_results import Item
 from fieldscribe.model import Device, Point
+from fieldscribe.text import line
 from fieldscribe.wording.numbers import hex_words, word_text
+
+_MOST_SOURCES = 16
+"""How many sets of missing points are remembered for a point, with the text where they come from."""
 
 
 def process_items(state: DecodeState, data: ProcessData) -> Iterator[Item]:
@@ -53,7 +57,7 @@ def _mask_item(state: DecodeState, place: int, at: int, words: tuple[int, ...]) 
     """Return the item of one mask: which bits of the control word at a place are valid."""
     names = _telegrams(state.device, "request")
     point = next((point for name in names for point in state.directory.at(name, place)), None)
-    about = point.code or point.name if point is not None else f"word {place + 1}"
+    about = line(point.code or point.name) if point is not None else f"word {place + 1}"
     if not any(words):
         text = f"no bit of {about} counts"
     elif set(words) == {0xFFFF}:
@@ -109,7 +113,7 @@ def _plan(state: DecodeState, layout: Layout) -> Plan:
         for point in points:
             if place == min(position for position in point.addresses if position in positions):
                 formatter = state.formatter(point, (telegram, min(point.addresses), len(point.addresses)))
-                formatter.sources = partial(_source_text, directory, layout)
+                formatter.sources = lru_cache(_MOST_SOURCES)(partial(_source_text, directory, layout))
                 steps.append((formatter, _reader(layout, point), place))
     taught = [(one.point, read) for one, read, _ in steps if one is not None and directory.teaches(one.point)]
     return Plan(taught, steps)
@@ -164,8 +168,8 @@ def _completed_items(state: DecodeState) -> Iterator[Item]:
     for name, (formatter, raw) in list(state.incomplete.items()):
         if state.changed.isdisjoint(formatter.needs):
             continue
-        item = formatter.item(raw, state.settings)
-        if not item.missing:
+        if not formatter.meanings.of(raw, state.settings).missing:
             del state.incomplete[name]
+            item = formatter.item(raw, state.settings)
             yield item.but(statement=f"from a frame before: {item.summary}")
     state.changed.clear()

@@ -71,7 +71,7 @@ class BitTexts(Protocol):
 class Item:
     """The content of a frame at one address: a point with its value, a part of a point, a command, or nothing known.
 
-    `summary` is one line with everything but the flags of a word; `bit_texts` builds those on demand. `missing` names
+    `summary` is a printable line with everything but the flags of a word, which `bit_texts` explains. `missing` names
     the points whose raw numbers are needed to compute the value. `findings` say what the device refuses, or that the
     address is in a gap; `summary` repeats them. `meaning` is the value with its unit, or a name. `doubts`, on request,
     say that the number lies outside its range, and which other readings are within it. `carries` is a statement about a
@@ -103,7 +103,7 @@ class Item:
 
     @property
     def summary(self) -> str:
-        """The statement, which some items make only when somebody asks."""
+        """The statement; some items make it only when somebody asks."""
         return self.statement
 
     @property

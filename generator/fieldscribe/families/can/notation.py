@@ -10,7 +10,7 @@ from fieldscribe.text import shortened
 
 HINT = "write identifier and data in hexadecimal, as in 321#DD00051513880064, or give the identifier with --can-id 321"
 MOST_IDENTIFIER = 0x1FFFFFFF
-_STAMP = r"(?P<stamp>\([0-9.]{1,32}\)\s+)?"
+_STAMP = r"(?:(?P<stamp>\([0-9.]{1,32}\))\s+)?"
 _LOGGED = re.compile(
     _STAMP
     + r"(?:(?P<bus>[A-Za-z][\w.-]{0,31})\s+)?(?:0[xX])?(?P<id>[0-9A-Fa-f]{1,8})#(?P<fd>#[0-9A-Fa-f])?(?P<data>[^\s#]*)"
@@ -75,10 +75,9 @@ def _matched(match: re.Match[str]) -> CanFrame:
     number = int(digits, 16)
     if number > MOST_IDENTIFIER:
         raise _unclear(f"the identifier {number:X} is longer than 29 bits")
-    stamp, bus = (stamp or "").strip(), bus or ""
     if data[:1] in "rR" and _REMOTE.fullmatch(data):
-        return CanFrame(number, b"", True, stamp, bus)
-    return CanFrame(number, _bytes(data.replace(".", " ")) if data else b"", False, stamp, bus)
+        return CanFrame(number, b"", True, stamp or "", bus or "")
+    return CanFrame(number, _bytes(data.replace(".", " ")) if data else b"", False, stamp or "", bus or "")
 
 
 def _bytes(text: str) -> bytes:
