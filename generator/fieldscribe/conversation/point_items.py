@@ -19,6 +19,7 @@ from fieldscribe.model import Device, Point
 from fieldscribe.text import line
 from fieldscribe.wording import label, title_text
 
+_FEW_BITS = 8
 _NO_SETTINGS: Settings = MappingProxyType({})
 
 Base = tuple[str, int, int]
@@ -50,17 +51,20 @@ class PointFormatter:
         self.absent = absence(device, point) if written else ""
         self.meanings = Meanings(device, point)
         self._meant = self.meanings.under(_NO_SETTINGS)
-        self._last_raw: int | None = None
-        self._last: PointItem
-        """The last item, if it needs no numbers of other points: on a bus most numbers come again."""
+        self._most = 1 << point.width if point.width <= _FEW_BITS else 1
+        self._items: dict[int, PointItem] = {}
+        """The last item, or all of few bits, if they need no numbers of other points: on a bus numbers come again."""
 
     def item(self, raw: int, settings: Settings) -> PointItem:
         """Return the item of a raw number under these settings of other points."""
         if self.needs:
             return PointItem(self, raw, self.meanings.under(settings)(raw), settings)
-        if raw != self._last_raw:
-            self._last_raw, self._last = raw, PointItem(self, raw, self._meant(raw), _NO_SETTINGS)
-        return self._last
+        item = self._items.get(raw)
+        if item is None:
+            if len(self._items) >= self._most:
+                self._items.clear()
+            item = self._items[raw] = PointItem(self, raw, self._meant(raw), _NO_SETTINGS)
+        return item
 
     def value(self, raw: int, settings: Settings) -> str:
         """Return the meaning of a raw number, and the number itself: `5 Hz (raw 500 = 01F4h)`."""
