@@ -15,7 +15,7 @@ from typing import NamedTuple
 import pytest
 from fieldscribe import pipeline
 from fieldscribe.cli import main
-from fieldscribe.conversation import meanings
+from fieldscribe.conversation import meanings, point_items
 from support.described import shipped
 from support.places import ROOT
 
@@ -136,6 +136,7 @@ def test_what_is_remembered_gives_way_and_nothing_else_changes(
     text = log(200)
     told = decode("-", given=text)
     monkeypatch.setattr(meanings, "_MOST_SETTINGS", 1)
+    monkeypatch.setattr(point_items, "_FEW_BITS", 0)
     assert decode("-", given=text) == told
 
 

@@ -20,6 +20,7 @@ from fieldscribe.text import line
 from fieldscribe.wording import label, title_text
 
 _FEW_BITS = 8
+"""The most bits of a point whose items are all kept."""
 _NO_SETTINGS: Settings = MappingProxyType({})
 
 Base = tuple[str, int, int]
@@ -53,7 +54,7 @@ class PointFormatter:
         self._meant = self.meanings.under(_NO_SETTINGS)
         self._most = 1 << point.width if point.width <= _FEW_BITS else 1
         self._items: dict[int, PointItem] = {}
-        """The last item, or all of few bits, if they need no numbers of other points: on a bus numbers come again."""
+        """The last item, or all of few bits, if they need no numbers of other points: most numbers come again."""
 
     def item(self, raw: int, settings: Settings) -> PointItem:
         """Return the item of a raw number under these settings of other points."""
