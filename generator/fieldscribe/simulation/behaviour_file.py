@@ -192,6 +192,8 @@ class _Reader:
     def _with_unit(self, written: conditions.Amount, span: Span, unit: str, *, per_second: bool) -> Amount:
         """Return a rate in `unit` a second, or a time in seconds. Raises FactError or FormulaError."""
         amount = self._amount(written, span)
+        if not per_second and not amount.refs and evaluate(amount.expression, {}) < 0:
+            raise FormulaError("a time is not negative", written.column, "write one from 0 on")
         stated = _units_of(written.unit) if written.unit else _dimension(amount.expression, amount.refs)
         for time, seconds in _SECONDS.items():
             wanted = _units_of(f"{unit}/{time}" if per_second else time)
