@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from fieldscribe.language.load import scalar
-from fieldscribe.language.numbers import LONGEST, NumberError, parse_integer, parse_number, plain_number
+from fieldscribe.language.numbers import LONGEST, NumberError, parse_integer, parse_number
 from hypothesis import example, given
 from hypothesis import strategies as st
 
@@ -125,22 +125,6 @@ def test_all_notations_of_a_whole_number_agree(number: int) -> None:
         assert parse_integer(sign + text) == number
     if magnitude < 2**60:
         assert parse_integer(f"{sign}0b{magnitude:b}") == number
-
-
-@given(st.integers(0, 1 << 40) | st.from_regex(r"[0-9A-Fa-fxXhH'+ -]{0,8}[hH]?", fullmatch=True))
-@example("0x10h")
-@example("10 h")
-@example("\uff11h")
-def test_what_is_plainly_a_number_is_that_number(written: int | str) -> None:
-    plain = plain_number(written)
-    assert plain is None or plain == parse_integer(str(written))
-
-
-def test_most_addresses_are_plain() -> None:
-    assert [plain_number(written) for written in (0, 4136, "1028h", "0FH", "0..3", "1028", None)] == [
-        *(0, 4136, 0x1028, 15),
-        *(None, None, None),
-    ]
 
 
 @pytest.mark.parametrize(

@@ -183,3 +183,11 @@ def test_existence_is_written_out_and_properties_name_variants(tmp_path: Path) -
     }
     units = {point.name: (point.unit.symbol, point.title["en"]) for point in device.points if "target" in point.name}
     assert units == {"target_speed": ("Hz", "Target (speed)"), "target_torque": ("V", "Target (torque)")}
+
+
+@pytest.mark.parametrize("at", ["4112", "1010h", "0x1010", '"H\'1010"', "0b1000000010000"])
+def test_a_formula_of_what_selects_knows_the_number_in_any_notation(at: str, tmp_path: Path) -> None:
+    rows = f"- {{name: page, at: 0, line: 1}}\n- {{name: paged, at: {at}, line: 2, select: {{page: number / 257}}}}\n"
+    device, findings = compile_in(tmp_path, described(rows))
+    assert device is not None, findings
+    assert device.points[1].selects == (("page", 16),)

@@ -10,7 +10,7 @@ from fieldscribe.arithmetic.words import number_of
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.formula.syntax import FormulaError
 from fieldscribe.language.nodes import Map, Seq
-from fieldscribe.language.numbers import plain_number
+from fieldscribe.language.numbers import integer_in
 from fieldscribe.model import Allowed, Point
 from fieldscribe.resolve.addresses import WIRE
 from fieldscribe.resolve.analysis import Analysis
@@ -63,7 +63,7 @@ def _is_plainly(value: object, number: int | str | None) -> bool:
         return False
     hexadecimal = f"{number:04X}h"
     for printed in value if isinstance(value, Seq) else (value,):
-        if printed not in (number, hexadecimal) and plain_number(printed) != number:
+        if printed not in (number, hexadecimal) and integer_in(printed) != number:
             return False
     return True
 

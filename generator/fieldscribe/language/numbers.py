@@ -19,7 +19,6 @@ MOST_EXPONENT = 400
 """The largest power of ten that may be written."""
 
 _OTHER = re.compile(r"([+-]?)(?:0[xX]([0-9A-Fa-f]+)|[Hh]'([0-9A-Fa-f]+)|([0-9A-Fa-f]+)[hH]|0b([01]+))")
-_HEX_DIGITS = re.compile(r"[0-9A-Fa-f]{1,16}[hH]")
 _DECIMAL = re.compile(r"([+-]?[0-9]+)(?:\.([0-9]+))?(?:([eE])([+-]?[0-9]+))?")
 
 
@@ -54,13 +53,6 @@ def parse_integer(text: str) -> int:
     if number.denominator != 1 or "." in text:
         raise NumberError(f"`{shortened(text)}` is not a whole number", "write a whole number, without a decimal point")
     return number.numerator
-
-
-def plain_number(value: object) -> int | None:
-    """Return the whole number of a number or of a text such as `1028h`; None for any other notation."""
-    if not isinstance(value, str):
-        return value if isinstance(value, int) else None
-    return int(value[:-1], 16) if _HEX_DIGITS.fullmatch(value) else None
 
 
 def number_in(value: object) -> Fraction | None:

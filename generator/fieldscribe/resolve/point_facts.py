@@ -16,7 +16,7 @@ from fieldscribe.language.formula.syntax import FormulaError
 from fieldscribe.language.keys import inherited
 from fieldscribe.language.keys.places import GROUP
 from fieldscribe.language.nodes import Map
-from fieldscribe.language.numbers import integer_in, plain_number
+from fieldscribe.language.numbers import integer_in
 from fieldscribe.model import Titles, Variant, item_of, type_info
 from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.values import NUMBERINGS, WORD_BITS, BitNumbers, integer, interval
@@ -227,7 +227,7 @@ class PointFacts:
 
     def _selecting(self) -> Iterator[tuple[str, str]]:
         """Yield a condition for each selecting point: it holds a name, or the result of a formula of an element."""
-        numbers = (self.element or ALONE).values(plain_number(self.get("at")) or 0)
+        numbers = (self.element or ALONE).values(integer_in(self.get("at")) or 0)
         for name, text in self.get("select").items():
             try:
                 yield f"{name}.raw == {number_text(evaluate(parse_expression(str(text)), numbers))}", "select"
