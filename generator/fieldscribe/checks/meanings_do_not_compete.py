@@ -48,8 +48,9 @@ def check(analysis: Analysis) -> None:
             message = f"`{facts.name}` is a single bit, which is 0 or 1 and has no scale"
             analysis.report.error("two-meanings", message, facts.span("scale"), "name its two states by an `enum`")
         _needless(analysis, facts, writable=shape.writable)
+        keys = facts.keys
         for first, second, hint in _RIVALS:
-            if first == "fixed" and resolved.point.bits is not None:
+            if first not in keys or second not in keys or (first == "fixed" and resolved.point.bits is not None):
                 continue
             if facts.get(first) is not None and facts.get(second) is not None:
                 related = [(facts.span(first), f"`{first}` stands here")]

@@ -46,6 +46,11 @@ def ranges_text(point: Point, line: Line, points: Points | None, unit: str) -> s
     """Return all intervals in one text, the unit after the last number and the exceptions of limits at the end."""
     intervals, listed = point.allowed.intervals, point.allowed.listed
     falling = line.factor < 0
+    simple = intervals[0].fixed if len(intervals) == 1 and not listed else None
+    if simple is not None:  # the same as below, quicker for most points
+        ends = [converted(raw, line) for raw in (simple[::-1] if falling else simple)]
+        text = "..".join(ends) if simple[0] != simple[1] else ends[0]
+        return f"{text} {unit}" if unit else text
     parts, remarks = [], []
     for interval in intervals:
         ends = [
