@@ -27,6 +27,7 @@ from fieldscribe.importing.draft_text import (
     snake,
 )
 from fieldscribe.importing.sunspec.models import Group, Model, Point
+from fieldscribe.text import counted
 from fieldscribe.wording.numbers import number_text
 
 _TYPES = {
@@ -145,7 +146,7 @@ def _state_type(point: Point, drafted: DraftPoint) -> None:
         facts |= {"type": "bytes", "notation": _BYTES[point.type][0]}
     else:
         facts |= {"type": "~", "length": str(point.size)}
-        drafted.questions.append(f"type {point.type}: {point.size} words")
+        drafted.questions.append(f"type {point.type}: {counted(point.size, 'word')}")
 
 
 def _state_factor(point: Point, drafted: DraftPoint, scope: Mapping[str, DraftPoint]) -> None:

@@ -234,6 +234,11 @@ def _space(item: Mapping[str, Any]) -> str:
     return str(item.get("reg_type", "holding"))
 
 
+def _stated(stated: object) -> str:
+    """Return a number of a template as it is printed, other things as they are."""
+    return number_text(stated) if isinstance(stated, Fraction) else str(stated)
+
+
 def _set_up(body: Mapping[str, Any], parameters: Parameters) -> DraftBlock:
     """Return the commands of these writes: one for each slot (steps have no base), or commands that run first."""
     block, steps = DraftBlock([]), list[tuple[str, int, str]]()
@@ -241,8 +246,9 @@ def _set_up(body: Mapping[str, Any], parameters: Parameters) -> DraftBlock:
         address, value, form = whole_of(item.get("address")), whole_of(item.get("value")), item.get("format", "u16")
         when = parameters.condition(str(item["condition"]), block.questions) if item.get("condition") else True
         if address is None or value is None or _space(item) not in ("holding", "coil") or form not in ("u16", "s16"):
-            stated = f"{item.get('address')} = {item.get('value')}"
-            block.questions.append(f"not carried: setup: {item.get('title')}: {stated}")
+            title = f"{item['title']}: " if item.get("title") else ""
+            stated = f"{_stated(item.get('address'))} = {_stated(item.get('value'))}"
+            block.questions.append(f"not carried: setup: {title}{stated}")
         elif when is not False:
             condition = "" if when is True else f", when: {scalar(str(when))}"
             words = f"words: [{value}]{condition}}}  # {line(str(item.get('title', '')))}"
