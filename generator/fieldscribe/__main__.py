@@ -1,5 +1,17 @@
-"""`python -m fieldscribe`."""
+"""The entry point of the command `fieldscribe`, and of `python -m fieldscribe`."""
 
-from fieldscribe.cli import main
+_INTERRUPTED = 130
 
-raise SystemExit(main())
+
+def main() -> int:
+    """Run the command line and return its exit code, also if Ctrl-C comes while its modules are imported."""
+    try:
+        from fieldscribe.cli import main as run
+
+        return run()
+    except KeyboardInterrupt:
+        return _INTERRUPTED
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

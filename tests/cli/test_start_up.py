@@ -1,4 +1,4 @@
-"""A quick command starts quickly, and so does pytest."""
+"""A quick command starts quickly, and so does pytest; Ctrl-C ends a command at any time."""
 
 from __future__ import annotations
 
@@ -6,10 +6,12 @@ import os
 import subprocess
 import sys
 import time
+import tomllib
 from pathlib import Path
 
 import pytest
 from fieldscribe.resources import descriptions_dir
+from support.places import ROOT
 
 
 @pytest.mark.full(seconds=1)
@@ -39,6 +41,38 @@ def test_a_generate_with_nothing_changed_imports_as_little(tmp_path: Path) -> No
             return
         time.sleep(2.1)
     raise AssertionError(done.stdout)
+
+
+INTERRUPTING = """
+import os, signal, sys
+
+_, awaited, entry = sys.argv
+
+class Interrupting:
+    @staticmethod
+    def find_spec(name, path=None, target=None):
+        if name == awaited:
+            os.kill(os.getpid(), signal.SIGINT)
+
+sys.meta_path.insert(0, Interrupting)
+module, _, function = entry.partition(":")
+sys.argv[1:] = ["check"]
+if function:
+    sys.exit(getattr(__import__(module, fromlist=[function]), function)())
+import runpy
+runpy.run_module(module, run_name="__main__", alter_sys=True)
+"""
+"""Runs an entry point; Ctrl-C comes when a module is imported."""
+
+SCRIPT: str = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]["scripts"]["fieldscribe"]
+
+
+@pytest.mark.parametrize("entry", [SCRIPT, "fieldscribe"])
+@pytest.mark.parametrize("module", ["fieldscribe.cli", "argparse", "fieldscribe.cli.terminal", "fieldscribe.cli.check"])
+def test_ctrl_c_while_modules_are_imported_ends_as_later(module: str, entry: str) -> None:
+    command = [sys.executable, "-I", "-c", INTERRUPTING, module, entry]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "")
 
 
 def test_the_plugin_of_pytest_imports_no_simulation() -> None:
