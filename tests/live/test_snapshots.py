@@ -185,6 +185,58 @@ def test_a_full_disk_ends_a_restore_with_what_was_written(
     assert [drive.values[label.split()[1]] == BEFORE[label.split()[1]] for label in FIRST].count(True) == notes // 2
 
 
+@pytest.mark.parametrize(
+    ("point", "change", "message"),
+    [
+        ("base_frequency", {"raw": 600}, "A020 base_frequency: its raw number 600 is 60 Hz, and its value says 50"),
+        ("base_frequency", {"value": 60}, "A020 base_frequency: its raw number 500 is 50 Hz, and its value says 60"),
+        ("run_command", {"raw": 1}, "run_command: its raw number 1 is run (Run), and its value says 0"),
+        ("base_frequency", {"raw": 600, "value": 60.0}, ""),
+        ("base_frequency", {"value": None}, ""),
+    ],
+)
+@pytest.mark.parametrize("words", ["compare a.json", "compare a.json a.json", "restore a.json --dry-run"])
+def test_a_snapshot_that_contradicts_itself(
+    words: str, point: str, change: dict[str, object], message: str, on_line: Run
+) -> None:
+    data = json.loads(Path("a.json").read_text("utf-8"))
+    data["points"][point].update(change)
+    Path("a.json").write_text(json.dumps(data), "utf-8")
+    done = on_line(*words.split())
+    assert (message in done.err, "its raw number" in done.err) == (True, bool(message))
+    assert not message or (done.code, done.out) == (1, "")
+    data["digest"] = "that of another edition"
+    Path("a.json").write_text(json.dumps(data), "utf-8")
+    assert "its raw number" not in on_line(*words.split()).err
+
+
+LIMITED = """\
+import resource, sys
+
+sys.dont_write_bytecode = True  # half a file of it would stay
+from fieldscribe.cli import main
+
+resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+sys.exit(main(sys.argv[1:]))
+"""
+"""A command that cannot write more than 4096 bytes into a file."""
+
+
+@pytest.mark.parametrize(
+    ("command", "message"),
+    [
+        ("snapshot hitachi_l200 --out b.json", "File too large: {folder}/b.json"),
+        ("vendor c hitachi_l200 --out v", "cannot write to v/fieldscribe.h: File too large"),
+    ],
+)
+def test_a_file_without_room_is_named(command: str, message: str, drive: Simulated, tmp_path: Path) -> None:
+    line = ("--line", f"tcp://127.0.0.1:{drive.port}") if "snapshot" in command else ()
+    words = [sys.executable, "-c", LIMITED, *command.split(), *line]
+    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith(f"fieldscribe: {message.format(folder=tmp_path)}\n")
+
+
 def test_a_journal_that_ends_anywhere_tells_of_what_is_whole(tmp_path: Path) -> None:
     """Whatever part of the file is there, nothing counts as written that was not noted."""
     path = tmp_path / "journal"

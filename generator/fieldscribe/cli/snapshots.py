@@ -19,7 +19,7 @@ from fieldscribe.cli.live_options import LINES, Live, Progress, add_live, add_pa
 from fieldscribe.cli.points import ask
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
 from fieldscribe.conversation.selection import choose_point
-from fieldscribe.diagnostics import Line, visible
+from fieldscribe.diagnostics import Line, UnclearError, visible
 from fieldscribe.live.connection import FieldscribeError
 from fieldscribe.live.restoring import Journal, Order, interrupted, ordered, refusals
 from fieldscribe.live.snapshots import (
@@ -27,6 +27,7 @@ from fieldscribe.live.snapshots import (
     Held,
     Snapshot,
     compared,
+    contradictions,
     defaults,
     is_setting,
     may_be_replaced,
@@ -35,7 +36,7 @@ from fieldscribe.live.snapshots import (
     take,
 )
 from fieldscribe.live.writing import Planner, Write, carry_out, in_requests
-from fieldscribe.model import Point
+from fieldscribe.model import Device, Point
 from fieldscribe.output import writing
 from fieldscribe.safe_files import kind_of
 from fieldscribe.text import counted
@@ -105,8 +106,8 @@ def add_compare_arguments(parser: ArgumentParser) -> None:
 
 def run_compare(arguments: Namespace) -> int:
     """Compare and print; return the exit code."""
-    first = read_snapshot(arguments.first)
-    second = _defaults_for(arguments, first) if arguments.second is None else read_snapshot(arguments.second)
+    first, other = _examined(arguments, arguments.first), arguments.second
+    second = defaults(_model_of(arguments, first)) if other is None else _examined(arguments, other)
     differences = compared(first, second, also_read=arguments.all)
     if arguments.format == "json":
         print_json({"first": first.title, "second": second.title, "differences": list(map(_as_data, differences))})
@@ -115,11 +116,30 @@ def run_compare(arguments: Namespace) -> int:
     return FINDINGS if differences else FINE
 
 
-def _defaults_for(arguments: Namespace, first: Snapshot) -> Snapshot:
-    """Return the defaults in the description of the snapshot's device. Raises UnclearError."""
-    arguments.device = first.device
-    arguments.variant = [f"{axis}={value}" for axis, value in first.variants.items()]
-    return defaults(open_device(arguments))
+def _examined(arguments: Namespace, file: Path) -> Snapshot:
+    """Return the snapshot in a file, examined if its description is at hand. Raises UnclearError."""
+    snapshot = read_snapshot(file)
+    try:
+        model = _model_of(arguments, snapshot)
+    except UnclearError:
+        return snapshot
+    _require_agreement(model, snapshot)
+    return snapshot
+
+
+def _model_of(arguments: Namespace, snapshot: Snapshot) -> Device:
+    """Return the description of a snapshot's device. Raises UnclearError."""
+    arguments.device = snapshot.device
+    arguments.variant = [f"{axis}={value}" for axis, value in snapshot.variants.items()]
+    return open_device(arguments)
+
+
+def _require_agreement(model: Device, snapshot: Snapshot) -> None:
+    """Raise StopError if a point's raw number and its value contradict each other."""
+    if wrong := list(contradictions(model, snapshot)):
+        more = f" ({len(wrong)} such points)" if wrong[1:] else ""
+        hint = "correct one: `restore` writes the raw number, `compare` compares the value"
+        raise StopError(f"{snapshot.title}: {wrong[0]}{more}", hint, FINDINGS)
 
 
 def _print_differences(first: Snapshot, second: Snapshot, differences: list[Difference]) -> None:
@@ -182,6 +202,7 @@ def run_restore(arguments: Namespace) -> int:
     print_lines([[("warning", visible(text))] for text in interrupted(journal)], sys.stderr)
     _take_from(wanted, arguments)
     with opened(arguments) as live:
+        _require_agreement(live.model, wanted)
         now = _taken(live)
         order = ordered(live.model, now, wanted, _chooser(live, arguments))
         writes = _planned(live, now, order, keep=arguments.keep)

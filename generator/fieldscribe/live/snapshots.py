@@ -165,6 +165,20 @@ def read_snapshot(path: Path) -> Snapshot:
     return snapshot
 
 
+def contradictions(model: Device, snapshot: Snapshot) -> Iterator[str]:
+    """Yield the points whose raw number and value differ in meaning; somebody changed one of them by hand.
+
+    A snapshot by another edition of the description is not examined: raw numbers may have another meaning there.
+    """
+    items = {point.item for point in model.points} if snapshot.digest == model.digest else ()
+    raws = {item: raw for item, raw in snapshot.raws.items() if item in items}
+    for item, found in _held(model, raws):
+        held = snapshot.points[item]
+        if held.value is not None and held.value != found.value and held.value == held.value:  # no NaN
+            label = f"{held.code or ''} {item}".lstrip()
+            yield f"{label}: its raw number {held.raw} is {found.text}, and its value says {held.value}"
+
+
 def may_be_replaced(path: Path) -> bool:
     """Return True if there is no file, an empty one, or a snapshot of any version: nothing else is lost. OSError."""
     if not path.exists():

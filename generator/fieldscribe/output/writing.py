@@ -222,8 +222,10 @@ def replace(place: Path, pieces: Iterable[bytes], temporary: str = _NEW, *, mode
         if mode is not None:
             os.chmod(new, mode)
         os.replace(new, place)
-    except BaseException:
+    except BaseException as error:
         new.unlink(missing_ok=True)
+        if isinstance(error, OSError) and error.filename is None:  # a full disk: the system names no file
+            error.filename = str(place)
         raise
     return state_of(os.lstat(place))
 
