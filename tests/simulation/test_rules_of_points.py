@@ -207,6 +207,16 @@ def test_a_device_of_a_bench(settings: dict[str, object], reads: dict[int, str],
         ({"given": {"slot": 1}}, "no address depends on `slot=1`"),
         ({"values": {"given": "much"}}, "much"),
         ({"refusals": 3}, "`refusals` is a mapping"),
+        ({"refusals": {"nosuch": 0}}, "modbus has no refusal `nosuch`"),
+        ({"refusals": {"index": 0}}, "modbus has no refusal `index`"),
+        ({"refusals": {"read_only": 256}}, "the number of `read_only` is a whole number from 0 to 255"),
+        ({"refusals": {"read_only": True}}, "the number of `read_only` is a whole number from 0 to 255"),
+        ({"device": "siemens_mm4", "refusals": {"format": 0}}, "uss has no refusal `format`"),
+        (
+            {"device": "siemens_mm4", "refusals": {"index": -1}},
+            "the number of `index` is a whole number from 0 to 65535",
+        ),
+        ({"device": "woodward_mpu2s", "refusals": {"read_only": 0}}, "can has no refusal `read_only`"),
     ],
 )
 def test_wrong_settings(settings: dict[str, Any], message: str) -> None:

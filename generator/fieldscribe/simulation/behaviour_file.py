@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from fieldscribe.arithmetic.codec import CodecError, encode
+from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.diagnostics import Report, Span
 from fieldscribe.grouping import grouped
 from fieldscribe.language.formula import conditions
@@ -30,6 +31,7 @@ from fieldscribe.language.nodes import Map, read_source
 from fieldscribe.language.shape import check_shape
 from fieldscribe.language.units import shipped_unit
 from fieldscribe.model import Device, Flag, Point
+from fieldscribe.resolve.scope import titles
 from fieldscribe.resolve.values import FactError, formula_finding, number
 from fieldscribe.simulation.behaviour_rules import TIME, Amount, Quantity, Ref, Rule, Rules, Step, Test
 
@@ -95,7 +97,7 @@ class _Reader:
             hint = "write a unit that `fieldscribe units` lists, or that a point has"
             self._unknown("unit", symbol, given.span("unit"), declared, hint)
             return None
-        return Quantity(Fraction(facts.get("start", 0)), symbol)
+        return Quantity(Fraction(facts.get("start", 0)), symbol, titles(facts.get("title")).get("en", ""))
 
     def _start(self) -> Iterator[tuple[str, Fraction]]:
         """Yield the start values of points."""
@@ -112,21 +114,24 @@ class _Reader:
                 self._unknown("entry", value, stated.span(word), named)
                 continue
             exact = Fraction(value) if isinstance(value, bool) else number(value, stated.span(word), self.report)
-            if exact is not None and self._fits(point, exact, word, stated.span(word)):
+            if exact is not None and self._fits(point, None, exact, word, stated.span(word)):
                 yield point.name, exact
 
-    def _fits(self, point: Point, value: Fraction, word: str, span: Span) -> bool:
-        """Report a value that the bits of a point cannot hold."""
-        if point.scale_arguments or point.info.floating:
+    def _fits(self, point: Point, flag: Flag | None, value: Fraction, word: str, span: Span) -> bool:
+        """Report a value that the bits of a point, or of a flag of it, cannot hold."""
+        low, high, raw = point.least, point.greatest, value
+        if flag is not None:
+            low, high = 0, mask_of(flag.width)
+        elif point.scale_arguments or point.info.floating:
             return True
-        try:
-            raw = encode(point, value, {})
-        except CodecError:
-            return True
-        if not point.least <= raw <= point.greatest:
+        else:
+            try:
+                raw = Fraction(encode(point, value, {}))
+            except CodecError:
+                return True
+        if not low <= raw <= high:
             self.report.error("range-outside-type", f"`{word}` cannot be {value}", span, "correct the number")
-            return False
-        return True
+        return low <= raw <= high
 
     def _rules(self) -> Iterator[Rule]:
         stated: Map = self.node["moves"]
@@ -165,6 +170,10 @@ class _Reader:
         if not (move.rates or move.once) and ref in target.refs.values():
             hint = "write `when` to count, or `ramp to … at …` to move on"
             raise FormulaError("a number cannot be set from itself again and again", move.target.column, hint)
+        points = () if target.refs else self.by_name.get(ref.name, ())
+        word = ".".join(filter(None, (ref.name, ref.flag_name)))
+        if points and not self._fits(points[0], ref.flag, evaluate(target.expression, {}), word, span):
+            raise FactError
         rates = [self._with_unit(rate, span, ref.unit, per_second=True) for rate in move.rates]
         delay = None if move.delay is None else self._with_unit(move.delay, span, "", per_second=False)
         clauses = tuple([tuple([self._test(each, move, span) for each in clause]) for clause in move.condition])

@@ -95,10 +95,11 @@ class Rule:
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """A quantity of the behaviour, which is no point: its number at the start, and the symbol of its unit."""
+    """A quantity of the behaviour, which is no point: its number at the start, its unit's symbol, and its title."""
 
     start: Fraction
     unit: str
+    title: str
 
 
 @dataclass(frozen=True, slots=True)

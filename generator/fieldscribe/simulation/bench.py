@@ -84,6 +84,9 @@ Item = TypeVar("Item")
 _Kinds = Mapping[str, tuple[tuple[type, ...], str]]
 MOST_DEVICES = 10_000
 _LONGEST = 1e8
+_FIRST_LINES = "write `lines:`, below it `- tcp: 5020` and its `devices`"
+_OF_DESCRIPTIONS = frozenset({"file-empty", "wrong-type"})
+"""Findings whose hint says how a description begins."""
 _BITS = 11
 """The bits of a character on a serial line, with start, parity and stop bits."""
 
@@ -106,7 +109,8 @@ def read_bench(file: Path) -> Settings:
     source = read_source(file, report)
     documents = [] if source is None else load(source, report)
     if report.has_errors:
-        raise _at(report.findings[0].span, report.findings[0].message, report.findings[0].hint or "")
+        first = report.findings[0]
+        raise _at(first.span, first.message, _FIRST_LINES if first.rule in _OF_DESCRIPTIONS else first.hint or "")
     if len(documents) != 1 or documents[0] is None:
         raise UnclearError(f"{file}:1:1: a bench file is one mapping with `lines`", "")
     return documents[0]
@@ -179,7 +183,7 @@ class Bench:
                 raise _wrong(settings, None, f"{layout.device.id} has no unit {unit}", f"its units are {low} to {high}")
             device = SimulatedDevice(layout, unit, seed=self._seed, clock=self.clock, strict=self._strict, rules=rules)
             try:
-                device.refusals.update(settings.get("refusals", {}))
+                device.refusals.update(_refusals(settings, layout.device.family))
                 device.meet(settings.get("unmet", ()), holds=False)
                 device.values.update(settings.get("values", {}))
             except (KeyError, ValueError) as error:
@@ -197,6 +201,20 @@ def _units(settings: Settings, usual: int) -> range:
     if not (low.isdecimal() and high.isdecimal() and 0 <= int(high) - int(low) < MOST_DEVICES):
         raise _wrong(settings, "units", f"`{settings['units'][:40]}` is no interval", "write it as 1..10")
     return range(int(low), int(high) + 1)
+
+
+def _refusals(settings: Settings, name: str) -> Mapping[str, int]:
+    """Return the numbers for kinds of refusals of a device of a family. Raises UnclearError."""
+    part = family(name).part("simulation")
+    given: Mapping[str, int] = settings.get("refusals", {})
+    for kind, number in given.items():
+        if kind not in part.REFUSALS:
+            known = ", ".join(part.REFUSALS) or "none: nobody answers a refused request"
+            raise _wrong(given, kind, f"{name} has no refusal `{str(kind)[:40]}`", f"there are {known}")
+        if type(number) is not int or not 0 <= number <= part.LARGEST_CODE:
+            message = f"the number of `{kind}` is a whole number from 0 to {part.LARGEST_CODE}"
+            raise _wrong(given, kind, message, "0 accepts the write silently")
+    return given
 
 
 def _item(items: list[Any], place: int) -> Settings:
@@ -259,10 +277,24 @@ def carry_out(bench: Bench, text: str) -> str:
         elif verb in ("get", "set", "restart", "met", "unmet"):
             return "\n".join(filter(None, (_one(device, verb, rest) for device in devices)))
         else:
-            return HELP if verb == "help" else f"there is no `{verb[:20]}`; `help` lists what there is" * bool(verb)
+            return (
+                _help(devices)
+                if verb == "help"
+                else f"there is no `{verb[:20]}`; `help` lists what there is" * bool(verb)
+            )
     except (KeyError, ValueError) as error:
         raise UnclearError(str(error.args[0]), "") from None
     return ""
+
+
+def _help(devices: list[SimulatedDevice]) -> str:
+    """Return what the commands do, and the quantities of behaviours that `get` and `set` take like points."""
+    rules = [device.behaviour.rules for device in devices if device.behaviour is not None]
+    quantities = {name: quantity for each in rules for name, quantity in each.plant.items()}
+    rows = [
+        f"{name:<19} {each.title}{f' ({each.unit})' if each.unit else ''}".rstrip() for name, each in quantities.items()
+    ]
+    return "\n".join([HELP, *(["", "also POINT, but only here:"] if rows else []), *rows])
 
 
 def _seconds(text: str) -> float:

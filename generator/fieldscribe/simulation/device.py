@@ -50,6 +50,10 @@ _OPENED = frozenset({"password"})
 """Conditions that a write fulfils: the write must match what the point with this name holds."""
 
 
+OF_VALUES = ("out_of_range", "unknown_value", "special", "missing", "not_a_number")
+"""The kinds of refusals of a value: the statuses of `codec.check`."""
+
+
 class Refusal(Exception):  # noqa: N818  # it is an answer of the device, and no error of ours
     """The device refuses a request.
 

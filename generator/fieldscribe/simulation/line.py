@@ -5,7 +5,8 @@ A family's `simulation.py` has
     def core_of(devices: Sequence[SimulatedDevice], framing: str) -> Core
 
 for the devices that share a line, and `LINES`: the lines that its devices can be on (`tcp`, `serial`, `can`), the usual
-one first, each with its framings there, the usual one first: `framing` is one of these.
+one first, each with its framings there, the usual one first: `framing` is one of these. `REFUSALS` are the kinds of
+refusals that get an answer with a number, of at most `LARGEST_CODE`.
 
 Requests and answers are bytes. A frame of CAN is its identifier in four bytes, high first, with the highest bit set for
 an extended one, then the data: `cut` is not called for it. A core on a serial line whose speed is known has `character`

@@ -15,6 +15,7 @@ from fieldscribe.simulation.device import Refusal, SimulatedDevice
 from fieldscribe.simulation.line import Answer, Core
 
 LINES = {"can": ("can",)}
+REFUSALS, LARGEST_CODE = (), 0
 _EXTENDED = 1 << 31
 _STANDARD_BITS = 11
 _USUAL_PAUSE = 0.1

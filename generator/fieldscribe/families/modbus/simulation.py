@@ -17,7 +17,7 @@ from fieldscribe.families.modbus.frames import (
     request_length,
 )
 from fieldscribe.model import Bus, Source
-from fieldscribe.simulation.device import Refusal, SimulatedDevice, by_unit
+from fieldscribe.simulation.device import OF_VALUES, Refusal, SimulatedDevice, by_unit
 from fieldscribe.simulation.line import Answer, Core, cut_sound
 
 LINES = {"tcp": ("any", "tcp", "rtu"), "serial": ("rtu",)}
@@ -40,6 +40,7 @@ _REASONS = {
     **dict.fromkeys(("read_only", "condition", "together"), "state"),
 }
 """The reason for each kind of refusal; all others are about the value."""
+REFUSALS, LARGEST_CODE = (*_REASONS, *OF_VALUES), 0xFF
 
 
 def core_of(devices: Sequence[SimulatedDevice], framing: str = "tcp") -> ModbusCore:

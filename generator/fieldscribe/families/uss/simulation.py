@@ -8,7 +8,7 @@ from fieldscribe.arithmetic.words import words_in
 from fieldscribe.families.uss import of_bus, telegrams
 from fieldscribe.families.uss.telegrams import LEAST_BYTES, Link, Part, sound_size, telegram
 from fieldscribe.model import Point
-from fieldscribe.simulation.device import Refusal, SimulatedDevice, by_unit
+from fieldscribe.simulation.device import OF_VALUES, Refusal, SimulatedDevice, by_unit
 from fieldscribe.simulation.line import Answer, Core, cut_sound
 
 LINES = {"serial": ("uss",), "tcp": ("uss",)}
@@ -38,6 +38,7 @@ _WORDS: Mapping[str, tuple[str, ...]] = {
     "task": ("not_implemented",),
 }
 """The words that name the error for each kind of refusal; all others are about a value that is not allowed."""
+REFUSALS, LARGEST_CODE = tuple(dict.fromkeys((*_WORDS, *OF_VALUES))), 0xFFFF
 _VALUE = ("value_not_allowed", "not_allowed", "limit")
 
 
