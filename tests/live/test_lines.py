@@ -12,6 +12,7 @@ from fieldscribe.cli.live_options import line_of
 from fieldscribe.diagnostics import Report, UnclearError
 from fieldscribe.families import families
 from fieldscribe.live.lines import Station, examples, families_of, read_line, read_project, schemes_of
+from fieldscribe.simulation import simulated
 from fieldscribe.vendoring import project_file as vendoring
 from support.small_drive import Output
 
@@ -92,6 +93,16 @@ def test_wrong_settings_of_a_serial_line(text: str, message: str) -> None:
 def test_there_is_an_example_of_the_lines_of_each_family() -> None:
     shown = {read_line(text).scheme for text in examples()}
     assert all(shown & set(schemes_of(family)) for family in families())
+
+
+@pytest.mark.parametrize(
+    ("setting", "message"), [("pkw=99", "part is 0, 3, 4, 127 words long, not 99"), ("pzd=17", "process data")]
+)
+def test_a_link_that_the_device_does_not_have(setting: str, message: str, run: Callable[..., Output]) -> None:
+    with simulated("siemens_mm4") as drive:
+        done = run("read", "siemens_mm4", "P1082", "--line", f"uss://{drive.path}?{setting}")
+    assert (done.code, done.out) == (2, "")
+    assert message in done.err
 
 
 @pytest.mark.parametrize("text", ["tcp://", "tcp://a:0", "tcp://a:99999", "tcp://a:x", "tcp://:502"])

@@ -71,7 +71,7 @@ def test_a_file_that_is_no_trace_is_kept(tmp_path: Path, capsys: pytest.CaptureF
         ([L200, "--time-scale", "-1"], "a time scale is a number from 0"),
         ([], "there is nothing to simulate"),
         ([L200, "--tcp", "0", "--speed", "300"], "a TCP line has no speed"),
-        ([L200, "--serial", "--speed", "0"], "`0` is no number of times from 1 on"),
+        ([L200, "--serial", "--speed", "0"], "`0` is no number of bits per second from 1 to 100000000"),
         ([f"{L200}@1", "--unit", "2"], f"--unit would have no effect on `{L200}@1`"),
         (["--bench", "bench.yaml", "--set", "A020=5"], "a bench file is given, and --set would have no effect"),
         (["--bench", "bench.yaml", "--time-scale", "2"], "--time-scale would have no effect"),
@@ -95,6 +95,13 @@ def test_nobody_beyond_this_machine_is_served_unless_it_is_wanted(capsys: pytest
     ("text", "message"),
     [
         ("lines: 3\n", ":1:8: `lines` is a list"),
+        (
+            "lines:\n- {tcp: 0, devices: [{device: nord_sk5xxe, refusals: {nosuch: 0}}]}\n",
+            ":2:63: modbus has no refusal `nosuch`\n  hint: there are function, address, format, absent, part",
+        ),
+        ("", ":1:1: the file is empty\n  hint: write `lines:`"),
+        ("# no lines\n", ":2:1: the file holds only comments\n  hint: write `lines:`"),
+        ("- tcp: 5020\n", ":1:1: a document must be a mapping of keys to values\n  hint: write `lines:`"),
         ("line: []\n", ":1:7: there is no key `line` here"),
         ("lines: []\n", ":1:8: there is no line\n  hint: write"),
         ("lines:\n- {tcp: 0, serial: x, devices: []}\n", ":2:3: a line is one of tcp, serial and can"),
@@ -161,6 +168,34 @@ def test_the_console_reads_writes_and_spoils() -> None:
 
 def test_a_trace_can_be_thrown_away(capsys: pytest.CaptureFixture[str]) -> None:
     assert ends([L200, "--trace", os.devnull], capsys)[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("commands", "last"),
+    [
+        ("set A020=60\n" * 20_000 + "set A020=40\nget A020\n", "1 A020 = 40"),
+        ("get A020\nquit\nget F002\n", "1 A020 = 50"),
+        ("x" * 300_000 + "\nget A020\n", "1 A020 = 50"),
+    ],
+)
+@pytest.mark.parametrize("piped", [False, True])
+def test_long_files_of_commands(commands: str, last: str, tmp_path: Path, *, piped: bool) -> None:
+    """None of them ends where the reads of a pipe or of a file end."""
+    (tmp_path / "commands").write_text(commands, "utf-8")
+    command = [sys.executable, "-m", "fieldscribe", "simulate", L200, "--tcp", "0", "--for", "0" if not piped else "3"]
+    with open(tmp_path / "commands", encoding="utf-8") as file:
+        given: dict[str, Any] = {"input": commands} if piped else {"stdin": file}
+        done = subprocess.run(command, **given, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout.splitlines()[-2:]) == (0, [last, "0 requests"])
+
+
+@pytest.mark.parametrize("device", [L200, "eastron_sdm630"])
+def test_help_names_the_quantities_of_the_behaviour(device: str) -> None:
+    said = carry_out(Bench({"lines": [{"devices": [{"device": device}]}]}), "help")
+    assert ("load                Motor current at any speed (%)\n" in said) is (device == L200)
+    assert ("\nexternal_trip_code  Code of an external trip, which the manual does not name\n" in said) is (
+        device == L200
+    )
 
 
 def test_commands_come_from_a_file_too(tmp_path: Path) -> None:

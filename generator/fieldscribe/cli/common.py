@@ -7,7 +7,6 @@ from argparse import ArgumentParser, ArgumentTypeError, Namespace, _ArgumentGrou
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from functools import lru_cache
-from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO, TypeVar
 
@@ -58,12 +57,22 @@ def period(text: str) -> float:
 
 def times(text: str) -> int:
     """Return a whole number above 0, for argparse."""
-    return int(_number(text, "times from 1 on", lambda number: 1 <= number < inf and number == int(number)))
+    return _whole_number(text, "times", 1)
 
 
 def repeats(text: str) -> int:
     """Return a whole number from 0 on, for argparse."""
-    return int(_number(text, "times from 0 on", lambda number: 0 <= number < inf and number == int(number)))
+    return _whole_number(text, "times", 0)
+
+
+def speed(text: str) -> int:
+    """Return the speed of a line, for argparse."""
+    return _whole_number(text, "bits per second", 1)
+
+
+def _whole_number(text: str, what: str, least: int) -> int:
+    ends = f"from {least} to {_LONGEST:.0f}"
+    return int(_number(text, f"{what} {ends}", lambda number: least <= number <= _LONGEST and number == int(number)))
 
 
 def _number(text: str, what: str, is_allowed: Callable[[float], bool]) -> float:

@@ -151,14 +151,16 @@ class Live(NamedTuple):
 
 
 @contextmanager
-def opened(arguments: Namespace) -> Iterator[Live]:
-    """Yield the device of the command line on its line.
+def opened(arguments: Namespace, *, reads: bool = True) -> Iterator[Live]:
+    """Yield the device of the command line on its line; what `reads` takes one unit, not all units at once.
 
     Raises StopError, also for errors of the line in the context.
     """
     line = line_of(arguments)
     model = model_of(arguments)
     unit = model.bus.usual_unit if arguments.unit is None else arguments.unit
+    if reads and unit == model.bus.broadcast:
+        raise StopError(f"unit {unit} is all units at once, and nobody answers to it", "give --unit of one device")
     with connected(arguments, line) as (connection, work):
         device = connection.device(model, unit, arguments.retries)
         try:

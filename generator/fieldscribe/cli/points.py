@@ -98,7 +98,7 @@ def add_write_arguments(parser: ArgumentParser) -> None:
 
 def run_write(arguments: Namespace) -> int:
     """Write, if the user agrees; return the exit code."""
-    with opened(arguments) as live:
+    with opened(arguments, reads=False) as live:
         with live.progress():
             writes = Planner(live.model, live.device, keep=arguments.keep).plan(arguments.words)
         if arguments.yes:

@@ -21,7 +21,7 @@ from fieldscribe.cli.common import (
     period,
     report_findings,
     some_path,
-    times,
+    speed,
     usage_error,
 )
 from fieldscribe.cli.terminal import FINDINGS, FINE
@@ -32,6 +32,8 @@ from fieldscribe.simulation.servers import serve
 
 _PLACES = ("tcp", "serial", "can")
 _USUAL_TIME = 1.0
+_AT_ONCE = 1 << 16
+"""The most bytes of standard input that are read at once."""
 _OF_THE_LINE = {"with": "given", "set": "values", "fault": "faults", "time-scale": "time_scale"} | {
     name: name for name in ("framing", "speed", "unit", "descriptions", "variant", "unmet", "still", "strict", "seed")
 }
@@ -62,7 +64,7 @@ def add_simulate_arguments(parser: ArgumentParser) -> None:
     line.add_argument("--can", metavar="INTERFACE:CHANNEL", help="answer on a CAN bus, as python-can names it")
     line.add_argument("--bench", type=some_path, metavar="FILE", help="many devices on many lines")
     add("--framing", default="", help="the framing on the line, such as rtu over TCP (default: the usual one)")
-    add("--speed", type=times, metavar="N", help="bauds of a serial port, or bits/s of a CAN bus")
+    add("--speed", type=speed, metavar="N", help="bauds of a serial port, or bits/s of a CAN bus")
     add("--unit", type=int, metavar="N", help="the unit of the device (default: its usual one)")
     add_descriptions(parser)
     add_repeated(parser, "--variant", "AXIS=VALUE", "choose a variant, as in voltage_class=400V")
@@ -192,17 +194,24 @@ def _read_lines(bench: Bench, stop: asyncio.Event) -> None:
     with suppress(OSError, ValueError, AttributeError):  # it may be closed
         source = sys.stdin.fileno()
         if not os.isatty(source) or os.tcgetpgrp(source) == os.getpgrp():  # in the background it would be stopped
+            begun = bytearray()
             try:
-                asyncio.get_running_loop().add_reader(source, _read_lines_now, source, bench, stop)
+                asyncio.get_running_loop().add_reader(source, _read_lines_now, source, begun, bench, stop)
             except PermissionError:  # a file has its lines at once, and cannot be waited for
-                _read_lines_now(source, bench, stop)
+                while _read_lines_now(source, begun, bench, stop) and S_ISREG(os.fstat(source).st_mode):
+                    pass
 
 
-def _read_lines_now(source: int, bench: Bench, stop: asyncio.Event) -> None:
-    data = os.read(source, 65536)
+def _read_lines_now(source: int, begun: bytearray, bench: Bench, stop: asyncio.Event) -> bool:
+    """Carry out what has come; `begun` keeps the beginning of a line. Return False at the end, and after `quit`."""
+    data = os.read(source, _AT_ONCE)
     if not data:
         asyncio.get_running_loop().remove_reader(source)
-    for text in data.decode("utf-8", "replace").splitlines():
+    begun += data
+    end = begun.rfind(b"\n") + 1 if data and len(begun) < 2 * _AT_ONCE else len(begun)
+    lines = begun[:end].decode("utf-8", "replace").splitlines()
+    del begun[:end]
+    for text in lines:
         try:
             for answer in carry_out(bench, text).splitlines():
                 print(visible(answer), flush=True)
@@ -210,3 +219,5 @@ def _read_lines_now(source: int, bench: Bench, stop: asyncio.Event) -> None:
             usage_error(error.message, error.hint)
         except EOFError:
             stop.set()
+            return False
+    return bool(data)

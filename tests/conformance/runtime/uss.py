@@ -176,7 +176,7 @@ def check_links(package: Package) -> None:
     """How the link may be set, also for variants, and which units there are."""
     uss, request = package.uss, package.runtime.RequestError
     for kind in kinds_of(package):
-        sizes = "the parameter part has one of (0, 3, 4, 127) words, not 5"
+        sizes = "the parameter part is 0, 3, 4, 127 words long, not 5"
         refuses(request, sizes, kind, Line(), 9, uss.Link(5, 2))
         refuses(request, "the device takes 0..4 words of process data, not 5", kind, Line(), 9, uss.Link(4, 5))
         small = "model small takes 0..2 words of process data, not 3"

@@ -127,7 +127,8 @@ def _check_part(profile: Profile, link: Link) -> None:
         raise RequestError("bad_link", f"the link is a Link, as Link(pkw=4, pzd=2), not {shown(link)}")
     check_integer("bad_link", "the length of the parameter part", link.pkw)
     if link.pkw not in profile.pkw:
-        raise RequestError("bad_link", f"the parameter part has one of {profile.pkw} words, not {shown(link.pkw)}")
+        allowed = ", ".join(map(str, profile.pkw))
+        raise RequestError("bad_link", f"the parameter part is {allowed} words long, not {shown(link.pkw)}")
 
 
 def _check_length(limits: tuple[int, int], link: Link, whose: str) -> None:

@@ -120,7 +120,7 @@ function checkUssPart(profile, link) {
   }
   checkInteger("bad_link", "the length of the parameter part", link.pkw);
   if (!profile.pkw.includes(link.pkw)) {
-    throw new RequestError("bad_link", `the parameter part has one of ${profile.pkw} words, not ${link.pkw}`);
+    throw new RequestError("bad_link", `the parameter part is ${profile.pkw.join(", ")} words long, not ${link.pkw}`);
   }
 }
 
