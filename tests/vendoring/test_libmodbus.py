@@ -12,6 +12,7 @@ import pytest
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
 from fieldscribe.model import Device, Point
+from fieldscribe.simulation import simulated
 from support.c_device import PROGRAMS, WARNINGS
 from support.loaded_once import load_device
 from support.places import ROOT
@@ -75,8 +76,38 @@ def test_the_page_on_libmodbus(port: str, tmp_path: Path, monkeypatch: pytest.Mo
     monkeypatch.chdir(tmp_path)
     [command] = re.findall(r"^\$ fieldscribe (vendor .*)$", text, re.MULTILINE)
     assert main(shlex.split(command)) == 0
-    blocks = re.findall(r"^```c\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+    *blocks, _ = re.findall(r"^```c\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
     succeed([build("".join(blocks) + CALLS, tmp_path, "-Idrivers", *libmodbus()), port])
+
+
+CONNECTED = """
+#include <arpa/inet.h>
+#include <stdio.h>
+#include <stdlib.h>
+int main(int argc, char **argv)
+{
+    struct sockaddr_in place = {.sin_family = AF_INET, .sin_port = htons((uint16_t)atoi(argv[argc - 1]))};
+    const int connected = socket(AF_INET, SOCK_STREAM, 0);
+    int32_t tenths = 0;
+    place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    if (connect(connected, (const struct sockaddr *)&place, sizeof place) != 0) {
+        return 2;
+    }
+    const fieldscribe_modbus_status status = first(connected, &tenths);
+    (void)printf("%d %ld\\n", (int)status, (long)tenths);
+    return 0;
+}
+"""
+
+
+@pytest.mark.full(seconds=3)
+@pytest.mark.parametrize(("faults", "said"), [([], "0 312\n"), (["silent"], None), (["drop"], None)])
+def test_a_socket_without_libmodbus(faults: list[str], said: str | None, tmp_path: Path) -> None:
+    *_, block = re.findall(r"^```c\n(.*?)^```$", PAGE.read_text("utf-8"), re.MULTILINE | re.DOTALL)
+    program = build(block + CONNECTED, tmp_path, f"-I{ROOT / 'generated/c'}", "-D_POSIX_C_SOURCE=200809L")
+    with simulated("hitachi_l200", values={"output_frequency": 31.2}, behaviour=False, faults=faults) as drive:
+        done = subprocess.run([program, str(drive.port)], capture_output=True, text=True, check=True)
+    assert done.stdout == said if said else done.stdout[:2] != "0 "
 
 
 @pytest.mark.full(seconds=5)
