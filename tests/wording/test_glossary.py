@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 import pytest
@@ -53,6 +54,41 @@ def test_titles_use_the_words_of_the_glossary(name: str) -> None:
     pairs = dict.fromkeys((where, title["de"], title["en"]) for where, title in titles if "de" in title)
     wrong = [f"{where}: {de} / {en}: {', '.join(found)}" for where, de, en in pairs if (found := breaches(de, en))]
     assert wrong == []
+
+
+OTHERWISE = {"nord_sk5xxe": {"480": "bus bit", "481": "bus bit"}}
+"""What English titles call by another number: the functions of bus bits, by the word before it."""
+
+
+def numbers_differ(german: str, english: str) -> bool:
+    """Whether both titles have numbers, and neither has all those of the other."""
+    first, second = ({*map(int, re.findall(r"\d+", title))} for title in (german, english))
+    return bool(first - second and second - first)
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_titles_have_the_numbers_of_the_manual(name: str) -> None:
+    device, others = shipped(name), OTHERWISE.get(name, {})
+    values = [(entry.name, entry.title) for point in device.points for flag in point.flags for entry in flag.values]
+    pairs = [(where, title["de"], title["en"]) for where, title in (*titles_of(device), *values) if "de" in title]
+    wrong = [(where, de, en) for where, de, en in pairs if numbers_differ(de, en)]
+    assert [
+        each for each in wrong if not any(key in each[1] and others[key] in each[2].lower() for key in others)
+    ] == []
+
+
+@pytest.mark.parametrize(
+    ("german", "english", "differ"),
+    [
+        ("Parametersatz 3", "Parameter set 3", False),
+        ("Parametersatz 3", "Parameter set 30", True),
+        ("Statuswort 1 (ZSW), RS232", "Source of ZSW, RS232", False),
+        ("Intern", "Internal, word 11", False),
+        ("Grenze 1 von 2", "Limit 1 of 3", True),
+    ],
+)
+def test_titles_whose_numbers_differ(german: str, english: str, *, differ: bool) -> None:
+    assert numbers_differ(german, english) is differ
 
 
 @pytest.mark.parametrize(
