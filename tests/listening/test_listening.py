@@ -361,3 +361,33 @@ def test_logs_and_traces_have_frames_of_both_kinds(listen: Listen, framed: Calla
     assert listen("hitachi_l200", trace)[1][0] == f"00:00:01.500  {READ}  (250.0 ms)"
     for wrong in ('{"time": 1', "{}", '{"time": "x", "request": "", "answer": "", "delay": 0}', "[" * 9999, "{" * 9999):
         assert listen("hitachi_l200", f"{wrong}\n{trace}")[0] in (0, 2)
+
+
+@pytest.mark.parametrize(
+    ("device", "frames", "ends"),
+    [
+        (
+            "hitachi_l200",
+            ("05 06 10 28 01 F4 0C 91", "00 01 00 00 00 06 05 06 10 28 01 F4"),
+            ("base_frequency (RTU, unit 5, 06h", "base_frequency (TCP, unit 5, 06h"),
+        ),
+        (
+            "siemens_mm4",
+            (
+                "02 0E 01 34 3A 00 00 42 48 00 00 00 00 00 00 09",
+                "02 0E 01 24 3A 00 00 42 48 00 00 FA 31 30 00 E2",
+                "02 0E 01 D4 3A 00 00 42 48 00 00 00 00 00 00 E9",
+                "02 0E 01 24 3A 00 00 42 48 00 00 FA 31 30 00 E2",
+            ),
+            ("task 3 write_double_word, parameter 1082)", "task 13 store_double_word, parameter 1082)"),
+        ),
+        ("hitachi_l200", ("05 06 10 28 01 F4 0C 91", "05 06 10 28 01 F4 0C 91"), ("write  base_frequency",)),
+    ],
+)
+def test_rows_that_read_alike_name_their_requests(
+    device: str, frames: tuple[str, ...], ends: tuple[str, ...], listen: Listen
+) -> None:
+    rows = [line for line in listen(device, "\n".join(frames), "--summary")[1] if " x  " in line and "write" in line]
+    assert len(rows) == len(ends)
+    assert all(end in row for end, row in zip(ends, rows, strict=True)), rows
+    assert ends[1:] or rows[0].endswith(ends[0])

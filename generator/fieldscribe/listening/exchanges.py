@@ -4,6 +4,7 @@ Who polls what, how often and how fast it is answered, the errors, and violation
 that hostile captures do not fill the memory; further rows are counted together.
 """
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, NamedTuple
@@ -141,13 +142,14 @@ _Counts = dict[tuple[str, str], list[Any]]
 
 @dataclass(slots=True)
 class Poll:
-    """A request that is repeated, or a cyclic message: its number, and times in seconds."""
+    """A request that is repeated, or a cyclic message: its number, and times in seconds; `request` is its summary."""
 
     who: str = ""
     unit: int | None = None
     device: str = ""
     action: str = ""
     what: str = OTHERS
+    request: str = ""
     count: int = 0
     answered: int = 0
     first: float | None = None
@@ -174,8 +176,13 @@ class Poll:
             self.timed += 1
             self.slowest = max(self.slowest, exchange.took)
 
-    def row(self) -> list[str]:
-        """Return the cells of a table."""
+    @property
+    def subject(self) -> tuple[object, ...]:
+        """What its row names."""
+        return self.who, self.unit, self.action, self.what
+
+    def row(self, *, in_full: bool) -> list[str]:
+        """Return the cells of a table; `in_full` those of a row that others resemble."""
         often = "" if self.every is None else f"every {seconds(self.every)}"
         unit = "" if self.unit is None else f"unit {self.unit}"
         answers = f"in {seconds(self.took / self.timed)}, at most {seconds(self.slowest)}" if self.slowest else ""
@@ -183,7 +190,8 @@ class Poll:
             f"{self.count - self.answered} without a good answer" if self.slowest and self.answered < self.count else ""
         )
         last = ", ".join(filter(None, (answers, lost)))
-        return [f"{self.count} x", often, self.who, unit, self.action, self.what, last]
+        what = f"{self.what} ({self.request})" if in_full else self.what
+        return [f"{self.count} x", often, self.who, unit, self.action, what, last]
 
 
 class Statistics:
@@ -216,7 +224,8 @@ class Statistics:
             if place not in self._polls:
                 full = len(self._polls) >= _MOST_ROWS
                 place = _REST if full else place
-                new = Poll(exchange.place, content.unit, content.device.id, content.action, _what(exchange))
+                who, what = (exchange.place, content.unit, content.device.id), _what(exchange)
+                new = Poll(*who, content.action, what, asked.summary)
                 self._polls.setdefault(place, Poll() if full else new)
             self._polls[place].add(exchange)
 
@@ -234,7 +243,8 @@ class Statistics:
         yield counted(self.exchanges, "exchange")
         if self._polls:
             yield from ("", "who asks for what, how often, and how fast it is answered:")
-            rows = [poll.row() for poll in self._sorted_polls()]
+            alike = Counter(poll.subject for poll in self._polls.values())
+            rows = [poll.row(in_full=alike[poll.subject] > 1) for poll in self._sorted_polls()]
             widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
             for row in rows:
                 cells = [f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True) if width]
