@@ -8,6 +8,8 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
+import yaml
+from support.described import shipped
 from support.places import ROOT
 from support.second_reading import READ_TWICE, differences, errata, key, rows, settled_wrongly, unanswered
 
@@ -34,6 +36,21 @@ def test_what_is_settled_was_read_otherwise_and_has_its_reason(name: str) -> Non
 @each_device
 def test_every_finding_of_the_second_reader_is_answered(name: str) -> None:
     assert unanswered(name, errata(ROOT / "descriptions" / name)) == []
+
+
+@each_device
+def test_what_a_group_says_of_a_type_is_said_of_a_point(name: str) -> None:
+    """Otherwise nobody notices that a number of it is wrong."""
+    documents = [
+        document
+        for path in sorted((ROOT / "descriptions" / name).glob("*.yaml"))
+        for document in yaml.safe_load_all(path.read_text("utf-8"))
+    ]
+    used = {(point.group, str(point.type)) for point in shipped(name).points}
+    said = [
+        (document["group"], kind) for document in documents if "group" in document for kind in document.get("types", ())
+    ]
+    assert [each for each in said if each not in used] == []
 
 
 def test_every_description_was_read_twice() -> None:
