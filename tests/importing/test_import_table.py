@@ -129,6 +129,8 @@ def test_the_family_and_the_space_of_a_draft(  # noqa: PLR0917  # a table
     assert f"\nspace: {space}\n" in draft
     asked = re.findall(r"# \? ((?:nothing|the family|are the).*)", draft)
     assert [text.partition("?")[0] for text in asked[:1]] == [question.rstrip("?")] * bool(question)
+    advice = "# ? are the addresses Modicon references? Then import with `--base modicon`\n"
+    assert (advice in draft) == question.startswith("are the addresses")
 
 
 def test_a_long_workbook_is_read_to_its_end(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

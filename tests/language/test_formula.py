@@ -259,9 +259,6 @@ def _is(name: str, op: str, *constants: int | str) -> Comparison:
     return Comparison(Name(name, "value", 0), op, given, 0)
 
 
-C_BELOW = _is("c", "<", 3)
-
-
 @pytest.mark.parametrize(
     ("text", "condition"),
     [

@@ -193,13 +193,6 @@ def _shape(token: Token) -> str:
     return token.text if token.kind == "operator" else token.kind
 
 
-_CONSTANTS = {
-    "c": re.compile(r"()([A-Z][A-Z0-9_]*_[A-Z0-9_]+)"),
-    "rust": re.compile(r"([A-Z]\w*)()"),
-    "python": re.compile(r"()([A-Z]\w+)"),
-}
-
-
 _TWINS = {
     name: {twin} for one, other in (("F32", "U32"), ("F64", "U64")) for name, twin in ((one, other), (other, one))
 }

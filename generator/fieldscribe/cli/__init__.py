@@ -1,7 +1,8 @@
 """The command line: the only room that prints, exits, or decides where files are written.
 
 To add a command, write it in a module of this folder and add one line to `COMMANDS`; `explain.py` is a short model.
-The command `list` has in its module
+In a module of another name, such as one with related commands, it also needs a word in `_MODULES`. The command `list`
+has in its module
 
 - `LIST_EXAMPLE`: the end of its `--help`: examples, and the meaning of its exit codes,
 - `add_list_arguments(parser)`: its arguments, with the shared ones of `common.py` (`add_device`, `add_paths`, ...),
@@ -9,7 +10,7 @@ The command `list` has in its module
   stderr. To stop a command, raise `common.StopError`.
 
 A module is imported when its command is chosen, so it can import what it needs at its top. Tests: an entry in
-`tests/cli/test_help_examples.py` for each example, and in `tests/cli/test_reporting.py` if it has `--format`.
+`tests/cli/test_help_examples.py` for each example, and in `tests/cli/test_reporting.py` for each exit code.
 """
 
 from __future__ import annotations

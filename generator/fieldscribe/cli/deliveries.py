@@ -46,6 +46,8 @@ pattern; what they need comes with them
 --check writes nothing, says what is missing, stale or edited by hand, and ends with 1 if anything is
 also ends with 1 when a device has errors or a foreign file is in the way; nothing of that device is written then"""
 
+_VENDOR_USAGE = "`fieldscribe vendor c hitachi_l200 --out drivers`"
+
 
 def add_vendor_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
@@ -171,9 +173,6 @@ def _order(arguments: Namespace, request: CodeRequest, device: str, out: Path | 
     return Order(opened.id, request, out, partial(request.contents, opened))
 
 
-_VENDOR_USAGE = "`fieldscribe vendor c hitachi_l200 --out drivers`"
-
-
 def _request(arguments: Namespace, inputs: Inputs) -> CodeRequest:
     """Return the request of the command line. Raises StopError."""
     language = arguments.language
@@ -264,7 +263,6 @@ a workbook has the points, their meanings (names of numbers, flags, special code
 several devices as html have an index.html, which lists and searches all that the command names
 --check writes nothing, says what is missing, stale or edited by hand, and ends with 1 if anything is
 also ends with 1 when a device has errors or a foreign file is in the way; nothing of that device is written then"""
-
 
 _DEVICES = "ids of devices, or paths: of a device.yaml, its folder, or a folder of such folders"
 

@@ -12,6 +12,7 @@ A family is one folder here and one line in `FAMILIES`. No code outside the fold
 - `frame_builder.py`: `frames_for`, `read_text` and `way_to_write` build the frames that read and write a point.
 - `lines.py`: the kinds of lines as `SCHEMES` with their settings, the functions that open them, and the cutter that
   divides what is received into frames, as `listening/__init__.py` describes it.
+- `simulation.py`: `core_of(devices)` answers requests as the devices on one line would.
 - `bus_facts.py`: the facts of the bus for documentation and exports.
 - `targets/<target>.py`: what the generated code of one target needs: profile, requests, tables, test vectors.
 
@@ -19,13 +20,13 @@ To add a function of a bus:
 
 1. Add a row to the table of the protocol: `FUNCTIONS` in `modbus/__init__.py`, or `_WRITE_TASKS` and `RESPONSE_WIDTHS`
    in `uss/telegrams.py`. Checks, profiles, generated tables and the vectors of all devices follow from it.
-2. If its bytes have a new form, add that to `frames.py` (USS: `telegrams.py`) and to `frame_decoder.py`. The runtimes
-   in `templates/<target>/runtime` have the same form once more, each in its language. In C, each function of Modbus is
-   an argument of `FIELDSCRIBE_MODBUS_PROFILE` in `fieldscribe_modbus_facts.h`: add one, and raise
-   `FIELDSCRIBE_MODBUS_INTERFACE` there and in `templates/c/modbus.h.j2`; a number above all others also raises
-   `FIELDSCRIBE_MODBUS_FUNCTIONS`.
+2. If its bytes have a new form, add that to `frames.py` (USS: `telegrams.py`), to `frame_decoder.py`, and to the
+   reply in `simulation.py`. The runtimes in `templates/<target>/runtime` have the same form once more, each in its
+   language. In C, each function of Modbus is an argument of `FIELDSCRIBE_MODBUS_PROFILE` in
+   `fieldscribe_modbus_facts.h`: add one, and raise `FIELDSCRIBE_MODBUS_INTERFACE` there and in
+   `templates/c/modbus.h.j2`; a number above all others also raises `FIELDSCRIBE_MODBUS_FUNCTIONS`.
 3. Add its requests and replies to the vectors, which show where a language differs: in `targets/wire.py` of Modbus,
-   `targets/vectors.py` of USS.
+   `targets/vectors.py` of USS. `tests/families` compares Modbus with pymodbus: add the request to its table.
 
 A family leaves out the parts that it does not need; the caller of a part documents its interface.
 """

@@ -1,4 +1,4 @@
-"""Plans what writing a device would change in an output folder; carries the plan out; and writes dependency files.
+"""Plans what writing a device would change in an output folder; carries the plan out; writes dependency files.
 
 A plan reads the folder and writes nothing. Each file is replaced atomically, and at every moment a manifest records
 which files are ours. A dependency file says to make and ninja that the outputs depend on inputs and compiler. They
@@ -231,7 +231,7 @@ def replace(place: Path, pieces: Iterable[bytes], temporary: str = _NEW, *, mode
 
 
 def update_depfile(place: Path, outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
-    """Write the file, and touch outputs that are older than an input. Raises OSError.
+    """Write the dependency file at a place, and touch outputs that are older than an input. Raises OSError.
 
     Outputs keep the paths that the user gave, because a build uses these.
     """
@@ -247,7 +247,7 @@ def update_depfile(place: Path, outputs: Iterable[Path], inputs: Iterable[Path])
 
 
 def write_depfile(place: Path, outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
-    """Write the file atomically. Raises OSError."""
+    """Write a dependency file atomically. Raises OSError."""
     names = list(dict.fromkeys(map(_escaped, inputs)))
     rules = [f"{' '.join(map(_escaped, outputs))}: {_BREAK.join(names)}", *(f"{name}:" for name in names)]
     _put(Path(os.path.realpath(place)), ("\n".join(rules) + "\n").encode("utf-8", "surrogateescape"))

@@ -68,7 +68,7 @@ def errata_of(scope: Scope, symbols: SymbolTable, bus: Bus) -> list[LocatedErrat
     """Return all errata in the order of the text, without those whose subject does not exist."""
     result = []
     for node in scope.unique("errata", "id"):
-        points = tuple(_points(scope, symbols, node))
+        points = tuple(_points(symbols, node))
         where = _where(scope, node, bus)
         if not points and where is None:
             continue
@@ -92,7 +92,7 @@ def errata_of(scope: Scope, symbols: SymbolTable, bus: Bus) -> list[LocatedErrat
     return result
 
 
-def _points(scope: Scope, symbols: SymbolTable, node: Map) -> Iterator[str]:
+def _points(symbols: SymbolTable, node: Map) -> Iterator[str]:
     """Yield the names of the points that an erratum is about; report unknown ones."""
     words = [(node["point"], node.span("point"))] if "point" in node else []
     words += [(word, node["points"].span(number)) for number, word in enumerate(node.get("points", ()))]

@@ -83,7 +83,7 @@ def _message(scope: Scope, bus: Bus, node: Map) -> Message | None:
             message, hint = "`pgn` and `can_id` exclude each other", "leave one of them out"
             scope.report.error("two-meanings", message, node.key_span("pgn"), hint)
     else:
-        identifier = _group(scope, bus, node)
+        identifier = _group(scope, node)
     laid_out = "layout" in node or "layout" in node.broken
     roles = _roles(scope, node) if "layout" in node else None if laid_out else ()
     if laid_out and "length" in node:
@@ -122,7 +122,7 @@ def _milliseconds(scope: Scope, node: Map) -> int | None:
     return None if match is None else int(match[1]) * (1000 if match[2] == "s" else 1)
 
 
-def _group(scope: Scope, bus: Bus, node: Map) -> tuple[int, bool] | None:
+def _group(scope: Scope, node: Map) -> tuple[int, bool] | None:
     """Return the identifier of a parameter group of J1939, and True if the unit is added to it."""
     if "pgn" not in node:
         if "pgn" not in node.broken:

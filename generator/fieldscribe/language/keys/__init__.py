@@ -13,7 +13,8 @@ To add a key:
 3. Fields of `Terms` and `Shape` reach generated code. If the fact is for people only, clear it in `code_view.py`, and
    say `for_people` in its row of step 4.
 4. Add a row to the table of facts (`fieldscribe/facts/points.py`): digest, pages, export and `diff` follow. A new
-   published fact raises `FORMAT` in `facts/devices.py`, and has a line in `tests/export/sample_drive.json`.
+   published fact raises `FORMAT` in `facts/devices.py` (and its number in `tests/export/test_export.py`), and has a
+   line in `tests/export/sample_drive.json`.
 5. Run `make keys`: editors, KEYS.md and the schema of the export know the key now.
 6. Use it in a description of `tests/devices/` or a test, and add a wrong use to `tests/bad/`.
 """

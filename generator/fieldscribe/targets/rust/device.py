@@ -82,7 +82,6 @@ def device_context(device: Device, scope: CrateScope, render: Render) -> dict[st
         "uses_enums": any(enum.name in scope.enums for enum in device.enums),
         "uses_flags": bool(first_word),
         "uses_with": bool(structs),
-        "reads_needs": bool(read),
         "device_type": scope.device_type,
         "clients": tuple(_clients(device, of_family.client_parameter, scope.device_type)),
         "title": rust_code(f"{device.vendor} {device.model}"),

@@ -141,7 +141,7 @@ class Identifiers(ClassNames):
 
 
 class Layout:
-    """Lays out calls. `makers` are functions whose names differ from those of the calls; `names` are of points."""
+    """Lays out calls. `makers` are functions whose names differ from those of the calls; `name_of` names a point."""
 
     def __init__(self, makers: Mapping[str, str], name_of: Callable[[str], str]) -> None:
         self._makers, self._name_of = makers, name_of

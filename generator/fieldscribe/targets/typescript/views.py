@@ -4,7 +4,7 @@ The first has a constant for each point and command; the main module the class o
 options; the last names for numbers, and words of flags.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from fieldscribe.arithmetic.words import mask_of
@@ -167,7 +167,7 @@ def type_of(point: Point, maker: str, scope: Scope) -> str:
     written = [js_string(special.name) for special in point.specials if special.writable]
     if written and point.writable:
         taken = f"{taken} | SpecialCode<{' | '.join(written)}>"
-    facts = dict(_facts(point, numbers, scope))
+    facts = dict(_facts(point, numbers))
     shown = value if point.readable else taken
     if taken != shown and point.writable:
         facts["takes"] = taken
@@ -194,15 +194,15 @@ def _values(point: Point, numbers: str) -> tuple[str, str]:
     return ("Date", "Date | number") if point.epoch else forms.get(point.form, ("number", "number"))
 
 
-def _facts(point: Point, numbers: str, scope: Scope) -> Iterator[tuple[str, str]]:
+def _facts(point: Point, numbers: str) -> Iterator[tuple[str, str]]:
     if is_big(point):
         yield "raw", "bigint"
     needs = dict.fromkeys(point.shape.scale_arguments)
     if needs:
-        yield "scale", _union(needs, scope)
+        yield "scale", _union(needs)
     limits = {name for name in point.arguments if name not in needs} if point.writable else set()
     if limits:
-        yield "limits", _union(dict.fromkeys(name for name in point.arguments if name in limits), scope)
+        yield "limits", _union(dict.fromkeys(name for name in point.arguments if name in limits))
     if point.specials:
         single = [special for special in point.specials if special.low == special.high]
         if single:
@@ -212,7 +212,7 @@ def _facts(point: Point, numbers: str, scope: Scope) -> Iterator[tuple[str, str]
         yield "names", f"typeof {numbers}"
 
 
-def _union(names: dict[str, None], scope: Scope) -> str:
+def _union(names: Iterable[str]) -> str:
     return " | ".join(js_string(camel(name)) for name in names)
 
 
