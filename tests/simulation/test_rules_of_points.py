@@ -59,27 +59,28 @@ STARTS: dict[str, object] = {
 def test_first_values() -> None:
     """The same for every seed, where something in the description says them; else in range."""
     for seed in (0, 1, 2):
-        values = device_of(seed=seed).values
+        device = device_of(seed=seed)
+        values: Any = device.values
         assert {name: values[name] for name, value in STARTS.items() if value is not None} == {
             name: value for name, value in STARTS.items() if value is not None
         }
-        assert 12 <= values["narrow"] <= 18  # type: ignore[operator]  # from a quarter to three quarters
-        assert 125 <= values["real"] <= 175  # type: ignore[operator]  # likewise
-        assert 25 <= values["wide"] <= 75  # type: ignore[operator]  # of 0 to 100 where only the bits set bounds
-        assert values["top"] <= values["given"]  # type: ignore[operator]  # likewise
-        assert device_of(seed=seed).memory.areas["holding", 0][18] >> 12 == 5
+        assert 12 <= values["narrow"] <= 18  # from a quarter to three quarters
+        assert 125 <= values["real"] <= 175  # likewise
+        assert 25 <= values["wide"] <= 75  # of 0 to 100 where only the bits set bounds
+        assert values["top"] <= values["given"]  # likewise
+        assert device.memory.areas["holding", 0][18] >> 12 == 5
 
 
 @pytest.mark.parametrize(("name", "written", "held"), RULES["values"])
 def test_a_value(name: str, written: object, held: object) -> None:
     """Written from outside, as a test does; a text that is no value of the point is an error."""
-    device = device_of()
+    values: Any = device_of().values
     if held == "two" or (isinstance(held, str) and " " in held):
         with pytest.raises((ValueError, KeyError), match=held):
-            device.values[name] = written  # type: ignore[assignment]  # as a test writes it
+            values[name] = written
     else:
-        device.values[name] = written  # type: ignore[assignment]  # likewise
-        assert device.values[name] == held
+        values[name] = written
+        assert values[name] == held
 
 
 @pytest.mark.parametrize(("request_pdu", "reply", "held"), [row[:3] for row in RULES["requests"]])

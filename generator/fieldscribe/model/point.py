@@ -117,8 +117,8 @@ class Terms:
     same words. `certainty` says where the facts come from, None if it is the manual. `base` names what the addresses
     count from, None if that is 0; a point that repeats `to_end` exists where the found block is long enough.
     `takes_effect` says when the device uses a written value, None if at once; `write_with` names the points that are
-    written in the same request. `selects` lists points with the raw number
-    that each must hold before the address means this point.
+    written in the same request. `selects` lists points with the raw number that each must hold before the address
+    means this point.
     """
 
     group: str

@@ -97,8 +97,7 @@ class Allowed:
     """Which raw numbers may be written: a union of intervals in ascending order.
 
     `listed` says that the author wrote single numbers. `units` holds limits in the unit, for f32, f64, and where the
-    scale is unknown.
-    Points with the same limits share one object, so that derived facts are computed once.
+    scale is unknown. Points with the same limits share one object, so that derived facts are computed once.
     """
 
     intervals: tuple[Interval, ...]

@@ -23,8 +23,8 @@ class HeaderScope:
     `enums` are the names of enums of points, `digits` of those of decimal digits, `spaces` the space of each group
     whose points all have the same. `shared` are what several points share, each with the first of them. `spelling` has
     the expressions for raw numbers of other points in the function being written. `calls_only` leaves out the
-    descriptor of a point that calls read and write; `left_out` returns the names of the functions
-    of a view that nobody needs.
+    descriptor of a point that calls read and write; `left_out` returns the names of the functions of a view that
+    nobody needs.
     """
 
     prefix: str

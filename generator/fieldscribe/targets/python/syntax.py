@@ -87,8 +87,8 @@ class PythonFamily(NamedTuple):
     """What generated modules import for a family.
 
     `module` of the runtime has the names in `exports`, the class `device` and its `transport`, and both with `Async`
-    before their names. `line` returns the usual transport. `settings` are further parameters of a
-    device's constructor (name, class).
+    before their names. `line` returns the usual transport. `settings` are further parameters of a device's constructor
+    (name, class).
     """
 
     module: str
