@@ -10,6 +10,7 @@ from fieldscribe.conversation.explanation import explain_other_items, explain_po
 from fieldscribe.conversation.lookup import find, near
 from fieldscribe.pasted_numbers import number_of
 from fieldscribe.text import shortened
+from support.described import shipped
 from support.models import changed, named, point, sample_device
 
 DEVICE = sample_device()
@@ -206,3 +207,22 @@ def test_every_point_can_be_explained() -> None:
     for one in DEVICE.points:
         assert explain_point(DEVICE, one).rows
         assert explain_point(DEVICE, one, as_documented=True).rows
+
+
+@pytest.mark.parametrize(
+    ("name", "volts", "raw", "is_doubted"),
+    [
+        ("acceleration_time", None, 500, False),
+        ("acceleration_time", None, 0, True),
+        ("overvoltage_deceleration_level", "200V", 350, False),
+        ("overvoltage_deceleration_level", "200V", 700, True),
+        ("overvoltage_deceleration_level", "400V", 700, False),
+    ],
+)
+def test_only_a_number_out_of_the_range_of_this_variant_is_doubted(
+    name: str, volts: str | None, raw: int, is_doubted: bool
+) -> None:
+    device = shipped("hitachi_l200")
+    wanted = [one for one in device.points if one.name == name and (one.variant and one.variant.value) == volts]
+    rows = explain_point(device, wanted[0], raw=raw).rows
+    assert ("Doubt" in dict(rows)) is is_doubted

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 from fieldscribe.arithmetic.codec import encode
@@ -93,3 +94,33 @@ def test_a_number_that_one_of_the_variants_allows_is_in_range(volts: int, is_wro
     frames = rtu(f"01 03 {point.addresses[0]:04X} 0001"), rtu(f"01 03 02 {raw:04X}")
     reply = [decoder.decode(bytes.fromhex(frame)) for frame in frames][1]
     assert [bool(item.doubts) for item in reply.items] == [is_wrong, is_wrong]
+
+
+LIMITED = """\
+- {name: first_most, at: 1, access: r}
+- {name: second_most, at: 2, access: r}
+- name: speed
+  at: 3
+  variants: {model=one: {range: 1..first_most}, model=two: {range: 1..second_most}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("limits", "number", "is_wrong"),
+    [
+        ((10, 100), 5, (False, False)),
+        ((10, 100), 50, (False, False)),  # each variant sees its own limit; that of the other is unknown to it
+        ((10, 100), 500, (False, False)),
+        ((10, 100), 0, (True, True)),
+    ],
+)
+def test_limits_of_variants_count_for_the_points_that_name_them(
+    tmp_path: Path, limits: tuple[int, int], number: int, is_wrong: tuple[bool, bool]
+) -> None:
+    model = "{model: {title: {en: Model}, values: {one: {}, two: {}}}}"
+    device = loaded_in(tmp_path, described(LIMITED, variants=model))
+    decoder = StreamDecoder(device, {}, frame_decoder(device, Options()), doubting=True)
+    words = "".join(f"{word:04X}" for word in (*limits, number))
+    frames = rtu("01 03 0001 0003"), rtu(f"01 03 06 {words}")
+    reply = [decoder.decode(bytes.fromhex(frame)) for frame in frames][1]
+    assert tuple(bool(item.doubts) for item in reply.items[2:]) == is_wrong

@@ -1,6 +1,7 @@
 """Explains what a user names, for `explain`: points with all facts, commands, errata, messages, codes, units, gaps."""
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
 
@@ -67,7 +68,8 @@ def _rows_of_number(device: Device, point: Point, raw: int | None) -> Iterator[R
     raw = number_of(raw, point.width, signed=point.info.signed) if raw > 0 else raw
     meaning = Meanings(device, point).text(raw, {})
     yield f"R{raw_form(point)(raw)[1:]}", meaning
-    doubts = Doubts(device, point, partial(Directory(device).neighbours, point))
+    variant = replace(point, variant=None)  # numbers of other variants are out of range here
+    doubts = Doubts(device, variant, partial(Directory(device).neighbours, point))
     yield from (("Doubt", text) for text in doubts.of(raw, {}, meaning))
 
 

@@ -91,10 +91,8 @@ class PointItem(Item):
             if not finding:
                 finding, unchecked = written_remarks(formatter.device, formatter.point, number, settings)
             self.findings, self._remark = (finding,) if finding else (), finding or unchecked
-        doubts = formatter.doubts
-        if doubts is not None and not doubts.fits(number, settings):
-            known = {name: settings[name] for name in formatter.needs if name in settings}
-            self.doubts = doubts.of(number, known, self.meaning)[1 if self.findings else 0 :]
+        if formatter.doubts is not None:
+            self.doubts = formatter.doubts.of(number, settings, self.meaning)[1 if self.findings else 0 :]
 
     @property
     def summary(self) -> str:
@@ -125,16 +123,16 @@ class Doubts:
     """Finds doubts about the numbers of a point; its limits and neighbours are looked up once."""
 
     def __init__(self, device: Device, point: Point, neighbours: Neighbours) -> None:
-        self._device, self._point, self.fits = device, point, _range_test(point)
-        """`fits` returns True if a number lies in range."""
+        self._device, self._point, self._fits = device, point, _range_test(point)
         self._meanings, self._range = Meanings(device, point), ""
         self._is_plain = point.form in ("scaled", "integer") and not (point.limit_arguments or point.fixed)
         self._read, self._swaps = reader_of(point), point.words > 1
         self._is_limited, self._is_signed = _is_limited(point), not point.info.floating
         first = point.addresses[0] if point.addresses else 0
         if point.variant is not None and point.addresses:  # which variant this is, nobody may have said
-            tests = [_range_test(other) for other in neighbours(first) if other.variant and other.words == point.words]
-            self.fits = lambda raw, settings: any(test(raw, settings) for test in tests)
+            variants = [other for other in neighbours(first) if other.variant and other.words == point.words]
+            tests = list(map(_range_test, (point, *variants)))
+            self._fits = lambda raw, settings: any(test(raw, self._known(settings)) for test in tests)
         others = [
             (f"one address {name}, {label(other)},", other)
             for name, address in ((("up", first + 1), ("down", first - 1)) if point.addresses else ())
@@ -144,16 +142,23 @@ class Doubts:
         self._others = [(text, reader_of(one), _range_test(one), Meanings(device, one)) for text, one in others]
 
     def of(self, raw: int, settings: Settings, meaning: str) -> tuple[str, ...]:
-        """Return a text that a number is out of range, then the other readings.
+        """Return a text that a number is out of range, then the other readings; nothing for a number in range.
 
         `meaning` is its meaning.
         """
+        if self._fits(raw, settings):
+            return ()
+        known = self._known(settings)
         if self._is_plain and meaning:
-            self._range = self._range or range_of(self._device, self._point, settings)
+            self._range = self._range or range_of(self._device, self._point, known)
             fault = line(f"{meaning} is outside {self._range}")
         else:
-            fault = range_fault(self._device, self._point, raw, settings)
-        return (fault, *self._near_misses(raw, settings)) if fault else ()
+            fault = range_fault(self._device, self._point, raw, known)
+        return fault, *self._near_misses(raw, known)
+
+    def _known(self, settings: Settings) -> Settings:
+        """Return the settings that the point names: only with these its items change."""
+        return {name: settings[name] for name in self._point.arguments if name in settings}
 
     def _near_misses(self, raw: int, settings: Settings) -> Iterator[str]:
         """Yield the other readings that lie in range and have a meaning."""
@@ -165,11 +170,11 @@ class Doubts:
 
     def _readings(self, raw: int, words: tuple[int, ...], settings: Settings) -> Iterator[tuple[str, int, Meanings]]:
         """Yield each other reading in range: in words, its raw number, and its meaning."""
-        if self._is_limited and self._swaps and self.fits(number := self._read(words[::-1]), settings):
+        if self._is_limited and self._swaps and self._fits(number := self._read(words[::-1]), settings):
             yield "with its words swapped", number, self._meanings
         if self._is_limited and self._is_signed:
             signed = number_of(pattern_of(self._point, raw), self._point.width, signed=True)
-            if signed < 0 and self.fits(-signed, settings):
+            if signed < 0 and self._fits(-signed, settings):
                 text, number = ("without its sign", -signed) if raw < 0 else ("as a signed number", signed)
                 yield text, number, self._meanings
         for text, read, fits, meanings in self._others:

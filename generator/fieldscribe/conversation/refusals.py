@@ -50,13 +50,8 @@ def written_remarks(device: Device, point: Point, raw: int, settings: Settings) 
 
 
 def range_fault(device: Device, point: Point, raw: int, settings: Settings) -> str:
-    """Return a text if a raw number is out of the range of its point; empty if it is not, or limits are unknown."""
-    try:
-        codec.check(point, raw, settings)
-    except CodecError as error:
-        if error.status in ("out_of_range", "unknown_value"):
-            return _out_of_range(device, point, (_value(point, raw, settings), raw), settings, hinted=False).why
-    return ""
+    """Return a text about a raw number that is out of the range of its point."""
+    return _out_of_range(device, point, (_value(point, raw, settings), raw), settings, hinted=False).why
 
 
 def range_of(device: Device, point: Point, settings: Settings, *, raw_alone: bool = False) -> str:
