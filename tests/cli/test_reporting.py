@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 from argparse import ArgumentParser
@@ -18,7 +19,7 @@ from fieldscribe.cli import COMMANDS, command_named, main
 from fieldscribe.cli.common import print_json
 from fieldscribe.live.snapshots import Held, Snapshot
 from fieldscribe.resources import descriptions_dir
-from support.described import write
+from support.described import described, write
 from support.small_drive import DEVICE, MAIN, SPEED_50, Output
 
 L200 = str(descriptions_dir() / "hitachi_l200")
@@ -180,6 +181,21 @@ def test_wrong_calls(words: list[str], message: str, run: Callable[..., Output],
     printed = run(*words)
     assert (printed.code, printed.out) == (2, "")
     assert message in printed.err
+
+
+@pytest.mark.parametrize("term", ["xterm", "dumb"])
+def test_the_labels_of_all_frames_have_one_column(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, term: str) -> None:
+    """As wide as the longest label of the device: that of flags in the upper bits of a word, `Bits 15..12`."""
+    screen = _Screen()
+    monkeypatch.setenv("NO_COLOR", "")
+    monkeypatch.setenv("TERM", term)
+    monkeypatch.setattr(sys, "stdout", screen)
+    point = "- {name: upper, at: 1, bits: 15..8, access: r, flags: {8: ready, 15..12: {name: mode}}}\n"
+    path = write(tmp_path, described(point))
+    assert main(["decode", str(path), "01 03 0001 0001 D5CA", "01 03 02 1234 B533"]) == 0
+    rows = re.sub(r"\x1b\[[0-9;]*m", "", screen.getvalue()).splitlines()
+    assert any(row.startswith("  Bits 15..12  1  mode") for row in rows)
+    assert {row[13:15] for row in rows if row.startswith("  ")} == {"  "}
 
 
 @pytest.mark.parametrize(

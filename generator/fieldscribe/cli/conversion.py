@@ -170,7 +170,8 @@ class _Printer:
     """Prints frames as rows of label and text. The labels of all frames have the same width, so streams line up."""
 
     def __init__(self, device: Device) -> None:
-        labels = {bits_label(flag.low + flag.width - 1, flag.low) for point in device.points for flag in point.flags}
+        flags = [(flag, point.bits[1] if point.bits else 0) for point in device.points for flag in point.flags]
+        labels = {bits_label(lowest + flag.low + flag.width - 1, lowest + flag.low) for flag, lowest in flags}
         self._title, self._row = row_writer(max(map(len, labels | {"Checksum"})))
         self._device = device.id
         self._separator = ""
