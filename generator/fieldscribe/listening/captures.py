@@ -5,9 +5,9 @@ bytes are safe.
 """
 
 import json
-from collections import OrderedDict
 from collections.abc import Callable, Container, Iterable, Iterator
 from dataclasses import dataclass, field
+from functools import lru_cache
 from io import SEEK_END, BufferedReader, TextIOWrapper
 from typing import Any
 
@@ -140,7 +140,7 @@ class Packets:
 
     def __init__(self, ports: Container[int]) -> None:
         self._ports = ports
-        self._directions: OrderedDict[tuple[bytes, bytes], _Direction] = OrderedDict()
+        self._way = lru_cache(_MOST_CONNECTIONS)(lambda _source, _target: _Direction())
 
     def chunks(self, packet: Packet) -> Iterable[Chunk]:
         """Return the chunks of a packet; any bytes are safe."""
@@ -160,22 +160,21 @@ class Packets:
                 return self._internet(packet.time, data[size:], protocol)
         return ()
 
-    def _internet(self, time: float | None, data: bytes, protocol: int) -> Iterator[Chunk]:
+    def _internet(self, time: float | None, data: bytes, protocol: int) -> Iterable[Chunk]:
         if len(data) < 40:
-            return
+            return ()
         if protocol == _IP4:
             head, last = (data[0] & 15) * 4, int.from_bytes(data[2:4], "big") or len(data)
             if data[9] != _TCP or int.from_bytes(data[6:8], "big") & 0x3FFF:
-                return
+                return ()
             source, target = data[12:16], data[16:20]
         else:
             head, last = 40, 40 + int.from_bytes(data[4:6], "big")
             if data[6] != _TCP:
-                return
+                return ()
             source, target = data[8:24], data[24:40]
         segment = data[head:last]
-        if len(segment) >= 20:
-            yield from self._segment(time, source, target, segment)
+        return self._segment(time, source, target, segment) if len(segment) >= 20 else ()
 
     def _segment(self, time: float | None, source: bytes, target: bytes, segment: bytes) -> Iterator[Chunk]:
         ports = int.from_bytes(segment[:2], "big"), int.from_bytes(segment[2:4], "big")
@@ -184,7 +183,7 @@ class Packets:
             return
         flags, data = segment[13], segment[(segment[12] >> 4) * 4 :]
         number = int.from_bytes(segment[4:8], "big")
-        way = self._way((source + segment[:2], target + segment[2:4]))
+        way = self._way(source + segment[:2], target + segment[2:4])
         if flags & (_SYN | _RST):
             way.due, way.held = (number + 1) % (1 << 32), {}
         if data and not flags & _SYN:
@@ -192,13 +191,6 @@ class Packets:
             place = f"{_address(client)}:{port}"
             for fresh, piece in _in_order(way, number, data):
                 yield Chunk(time, STREAM, piece, place, sent, fresh)
-
-    def _way(self, key: tuple[bytes, bytes]) -> _Direction:
-        way = self._directions.setdefault(key, _Direction())
-        self._directions.move_to_end(key)
-        if len(self._directions) > _MOST_CONNECTIONS:
-            self._directions.popitem(last=False)
-        return way
 
 
 def _in_order(way: _Direction, number: int, data: bytes) -> Iterator[tuple[bool, bytes]]:
