@@ -75,7 +75,6 @@ def piece_items(state: DecodeState, piece: Piece) -> list[Item]:
     plan = state.plans.get(layout) or state.planned(layout, _plan(state, layout))
     plan.teach(state, words)
     items: list[Item] = []
-    incomplete: dict[str, tuple[PointFormatter, int]] = {}
     for formatter, read, place in plan.steps:
         raw = read(words)
         if formatter is None:
@@ -86,19 +85,15 @@ def piece_items(state: DecodeState, piece: Piece) -> list[Item]:
             items.append(named_item(formatter.point, formatter.base, text, rests_on=formatter.rests_on))
             continue
         item = formatter.item(raw, state.settings)
-        if item.missing:
-            incomplete[formatter.name] = formatter, raw
-        elif formatter.name in state.incomplete:
-            del state.incomplete[formatter.name]
-            state.touch(formatter.name)
         items.append(item)
+        number = (formatter, raw) if item.missing else None
+        if state.incomplete.get(formatter.name) != number:
+            state.incomplete.pop(formatter.name, None)  # those of the last frames come last
+            if number is not None:
+                state.incomplete[formatter.name] = number
+            state.touch(formatter.name)
     if state.changed:
         items += _completed_items(state)
-    for name, number in incomplete.items():
-        if state.incomplete.get(name) != number:
-            state.incomplete.pop(name, None)  # those of the last frames come last
-            state.incomplete[name] = number
-            state.touch(name)
     return items
 
 
