@@ -63,7 +63,7 @@ class Meanings:
 
     def under(self, settings: Settings) -> Meant:
         """Return the function that gives the meanings under these settings."""
-        return self._under(*[settings.get(name) for name in self._names])
+        return self._under(*map(settings.get, self._names))
 
     def text(self, raw: int, settings: Settings) -> str:
         """Return the meaning of a raw number as text, with the flags of a word in one sentence."""
@@ -135,11 +135,9 @@ def _naming(point: Point) -> Meant | None:
     if (layout := point.text) is not None:
         return partial(_text_meaning, layout)
     if point.enum is not None:
-        entries = {entry.raw: wording.entry_meaning(entry) for entry in reversed(point.enum.entries)}
+        entries = {entry.raw: Meaning(line(wording.entry_meaning(entry))) for entry in reversed(point.enum.entries)}
         number = partial(_float_text, point) if point.shape.patterns else str
-        return lambda raw: Meaning(
-            line(entries.get(raw, "")) or f"{number(raw)}, a number without a name in the manual"
-        )
+        return lambda raw: entries.get(raw) or Meaning(f"{number(raw)}, a number without a name in the manual")
     if point.flags:
         return _always(Meaning("", flags=FlagTexts(point)))
     if point.digits is not None:

@@ -7,6 +7,7 @@ down. Those that lie in range are listed; nothing is ranked or inferred.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from functools import lru_cache
 from types import MappingProxyType
 
 from fieldscribe.arithmetic.codec import Settings
@@ -51,21 +52,16 @@ class PointFormatter:
         """Returns where the numbers come that are missing."""
         self.absent = absence(device, point) if written else ""
         self.meanings = Meanings(device, point)
-        self._meant = self.meanings.under(_NO_SETTINGS)
-        self._most = 1 << point.width if point.width <= _FEW_BITS else 1
-        self._items: dict[int, PointItem] = {}
-        """The last item, or all of few bits, if they need no numbers of other points: most numbers come again."""
+        meant = self.meanings.under(_NO_SETTINGS)
+        most = 1 << point.width if point.width <= _FEW_BITS else 1
+        self._kept = lru_cache(most)(lambda raw: PointItem(self, raw, meant(raw), _NO_SETTINGS))
+        """Returns an item that needs no numbers of other points: the last one is kept, or all of few bits."""
 
     def item(self, raw: int, settings: Settings) -> PointItem:
         """Return the item of a raw number under these settings of other points."""
         if self.needs:
             return PointItem(self, raw, self.meanings.under(settings)(raw), settings)
-        item = self._items.get(raw)
-        if item is None:
-            if len(self._items) >= self._most:
-                self._items.clear()
-            item = self._items[raw] = PointItem(self, raw, self._meant(raw), _NO_SETTINGS)
-        return item
+        return self._kept(raw)
 
     def value(self, raw: int, settings: Settings) -> str:
         """Return the meaning of a raw number, and the number itself: `5 Hz (raw 500 = 01F4h)`."""
@@ -75,7 +71,7 @@ class PointFormatter:
 class PointItem(Item):
     """A point with its raw number and its meaning. The summary waits until somebody asks: many users do not."""
 
-    __slots__ = ("_formatter", "_hint", "_number", "_remark")
+    _remark = ""
 
     def __init__(self, formatter: PointFormatter, number: int, meaning: Meaning, settings: Settings) -> None:
         self._formatter, self._number = formatter, number
@@ -83,9 +79,7 @@ class PointItem(Item):
         self.point, self.code, self.rests_on = formatter.name, formatter.code, formatter.rests_on
         self.raw = None if formatter.is_text else number
         self.meaning, self.value, self.missing, self._hint, self.bit_texts = meaning
-        self.statement = self.carries = self.subject = self._remark = ""
-        self.findings: tuple[str, ...] = ()
-        self.doubts: tuple[str, ...] = ()
+        self.statement = ""
         if formatter.written:
             finding, unchecked = formatter.absent, ""
             if not finding:

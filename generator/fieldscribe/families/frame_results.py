@@ -67,7 +67,7 @@ class BitTexts(Protocol):
         """Return only the flags that apply."""
 
 
-@dataclass(slots=True)
+@dataclass
 class Item:
     """The content of a frame at one address: a point with its value, a part of a point, a command, or nothing known.
 

@@ -33,7 +33,7 @@ class CanFrame(NamedTuple):
         """The frame as candump logs it, and cansend takes it."""
         identifier = "%03X" % self.id if self.id <= 0x7FF else "%08X" % self.id  # noqa: UP031  # a stream has millions
         text = f"{identifier}#{'R' if self.remote else self.data.hex().upper()}"
-        return " ".join([part for part in (self.stamp, self.bus, text) if part])
+        return " ".join(filter(None, (self.stamp, self.bus, text)))
 
     @property
     def details(self) -> dict[str, object]:
