@@ -1,7 +1,7 @@
-"""The contexts of the templates: of the points module and its types, of the main module, of the module of enums.
+"""The contexts of the TypeScript templates, module by module.
 
-The first has a constant for each point and command; the main module the class of the device, with its constructor's
-options; the last names for numbers, and words of flags.
+The points module, with its types, has a constant for each point and command. The main module has the class of the
+device, with its constructor's options. The enums module has names for numbers, and words of flags.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
