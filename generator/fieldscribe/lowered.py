@@ -32,8 +32,8 @@ class TemplateKeys:
     def of(self, point: Point) -> int:
         """Return the number of the point's kind."""
         shape, allowed, addresses = point.shape, point.allowed, point.place.addresses
-        apart = point.was or point.variant is not None or point.write_place is not None
-        if apart or allowed.moves or not _is_shared(shape):
+        is_single = point.was or point.variant is not None or point.write_place is not None
+        if is_single or allowed.moves or not _is_shared(shape):
             return self._number(point.item)
         references, enum = point.place.references, shape.named_numbers
         is_named_after_point = enum is not None and (enum.name or point.enum_names[0]) == point.item

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.diagnostics import Report, Span
-from fieldscribe.safe_files import Inputs, shown_path
+from fieldscribe.safe_files import Inputs, path_text
 
 if TYPE_CHECKING:
     from fieldscribe.language.files import Files
@@ -49,7 +49,7 @@ def find_devices(paths: Iterable[Path], report: Report) -> list[Path]:
             elif path.exists():
                 missing = "it is neither a folder nor a regular file"
             hint = f"name a folder with {DEVICE_FILE}, or a folder of such folders"
-            report.error("no-device", missing, Span(shown_path(path), 1, 1), hint)
+            report.error("no-device", missing, Span(path_text(path), 1, 1), hint)
         device_files.update(dict.fromkeys(candidates))
     return list(device_files)
 
@@ -127,9 +127,9 @@ def is_new(device: Device, device_file: Path, known: dict[str, Path], report: Re
     first = known.setdefault(device.id, device_file)
     if first == device_file:
         return True
-    message = f"the device `{device.id}` is described twice in this run, first in {shown_path(first)}"
+    message = f"the device `{device.id}` is described twice in this run, first in {path_text(first)}"
     hint = f"give one {DEVICE_FILE} another `device`"
-    report.error("duplicate-device", message, Span(shown_path(device_file), 1, 1), hint)
+    report.error("duplicate-device", message, Span(path_text(device_file), 1, 1), hint)
     return False
 
 

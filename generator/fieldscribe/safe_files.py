@@ -54,7 +54,7 @@ class Inputs:
         self.states[path] = content.state
 
 
-def shown_path(path: Path) -> str:
+def path_text(path: Path) -> str:
     """Return the path for messages: relative to the working folder if it lies below that."""
     try:
         return Path(os.path.abspath(path)).relative_to(Path.cwd()).as_posix()

@@ -30,7 +30,7 @@ def test_a_message_claims_its_numbers_and_both_ends_of_its_bytes() -> None:
     )
     claims = list(claims_of_entry("command", entry, Notation(written("documents: {}\n")["documents"])))
     assert {claim.subject for claim in claims} == {"command go"}
-    assert [(claim.fact, claim.shown, lines(claim), claim.optional) for claim in claims] == [
+    assert [(claim.fact, claim.stated, lines(claim), claim.optional) for claim in claims] == [
         ("at", "7", ((5, 0),), False),
         ("value", "1", ((9, 0),), False),
         ("layout", "0", ((5, 0),), False),
@@ -51,7 +51,7 @@ def test_codes_that_share_a_row_may_be_printed_by_its_ends() -> None:
         "9: {name: c, line: 4, printed: {bytes: 16}}\n11: {name: d, line: 6}\n12: plain\n"
     )
     claims = list(claims_of_codes("function", codes))
-    assert [(claim.subject, claim.fact, claim.shown, lines(claim)) for claim in claims] == [
+    assert [(claim.subject, claim.fact, claim.stated, lines(claim)) for claim in claims] == [
         ("function 2", "number", "2", ((4, 0),)),
         ("function 2", "max", "8", ((4, 0),)),
         ("function 5", "number", "5", ((7, 0),)),
@@ -72,7 +72,7 @@ def test_settings_of_the_bus_are_claimed_where_lines_are_named() -> None:
         "timing: {pause: 20 ms}\nlines: {units: 3, baud: 7..7, parity: 8, formats: 9, stop_bits: 5, pause: 6}\n"
     )
     claims = list(claims_of_settings(bus))
-    assert [(claim.fact, claim.shown, lines(claim)) for claim in claims] == [
+    assert [(claim.fact, claim.stated, lines(claim)) for claim in claims] == [
         ("units", "1", ((3, 0),)),
         ("units", "32", ((3, 0),)),
         ("baud", "4: 4800", ((7, 7),)),

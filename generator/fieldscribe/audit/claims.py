@@ -52,17 +52,17 @@ class Run(NamedTuple):
 
 
 class Label(NamedTuple):
-    """One of these labels, beside one of some numbers: `beside` has the numbers for each way to print the list.
+    """One of these labels, beside one of some numbers: `adjacent` has the numbers for each way to print the list.
 
     A table prints flags beside their bits, or beside their masks; values beside themselves, or beside their flag's bit.
     """
 
     words: tuple[str, ...]
-    beside: tuple[frozenset[Fraction], ...] = ()
+    adjacent: tuple[frozenset[Fraction], ...] = ()
 
     def numbers(self, way: int) -> frozenset[Fraction]:
         """Return the numbers beside the label in one way to print the list."""
-        return self.beside[min(way, len(self.beside) - 1)] if self.beside else frozenset()
+        return self.adjacent[min(way, len(self.adjacent) - 1)] if self.adjacent else frozenset()
 
 
 class Word(NamedTuple):
@@ -87,14 +87,14 @@ Evidence: TypeAlias = "Number | Run | Label | Word | Bytes"
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Claim:
-    """A fact of a subject, as `shown` in reports, and the evidence for it at every place that it cites.
+    """A fact of a subject, as `stated` in reports, and the evidence for it at every place that it cites.
 
     An `optional` fact need not be printed. Between two editions, one that the old edition prints must stay.
     """
 
     subject: str
     fact: str
-    shown: str
+    stated: str
     cited: tuple[Cited, ...]
     place: Span
     """The place of the fact in the description."""
@@ -112,7 +112,7 @@ class Claim:
     def identity(self) -> tuple[object, ...]:
         """The key of a claim: the same fact in several notations is one claim."""
         lines = tuple(cited.lines for cited in self.cited)
-        return self.subject, self.fact, self.shown, lines, self.evidence, self.optional
+        return self.subject, self.fact, self.stated, lines, self.evidence, self.optional
 
     @property
     def numbers(self) -> frozenset[Fraction]:
@@ -150,7 +150,7 @@ class ClaimMaker:
     def claim(  # noqa: PLR0913 - a row of the table of facts
         self,
         fact: str,
-        shown: str,
+        stated: str,
         evidence: Evidence,
         place: Span | None = None,
         *,
@@ -160,7 +160,7 @@ class ClaimMaker:
         """Yield the claim, unless the description cites no line for it; `key` is its key in `lines` if not `fact`."""
         cited = self.lines_of_fact.get(key or fact, self.own_line)
         if cited:
-            yield Claim(self.subject, fact, shown, cited, place or self.place, evidence, optional, self.about)
+            yield Claim(self.subject, fact, stated, cited, place or self.place, evidence, optional, self.about)
 
     def number(
         self, fact: str, number: Fraction, place: Span | None = None, *, key: str = "", optional: bool = False
@@ -176,7 +176,7 @@ class ClaimMaker:
     def run(  # noqa: PLR0913 - a row of the table of facts
         self,
         fact: str,
-        shown: str,
+        stated: str,
         ways: Sequence[Sequence[Fraction]],
         place: Span,
         *,
@@ -188,9 +188,9 @@ class ClaimMaker:
         runs = tuple(tuple(absolute((number,)) for number in way) for way in ways)
         if len(runs[0]) == 1:
             evidence: Evidence = Number(absolute(number for way in ways for number in way))
-            yield from self.claim(fact, shown, evidence, place, key=key, optional=optional)
+            yield from self.claim(fact, stated, evidence, place, key=key, optional=optional)
         elif runs[0]:
-            yield from self.claim(fact, shown, Run(runs, spread), place, key=key, optional=optional)
+            yield from self.claim(fact, stated, Run(runs, spread), place, key=key, optional=optional)
 
     def label(
         self,
@@ -199,12 +199,12 @@ class ClaimMaker:
         place: Span,
         *,
         key: str = "",
-        beside: Sequence[Sequence[Fraction]] = (),
+        adjacent: Sequence[Sequence[Fraction]] = (),
     ) -> Iterator[Claim]:
         """Yield the claim that words of the manual are printed, as a title or beside numbers."""
         if any(map(letters_of, words)):
-            shown = f"{abs(beside[0][0])} = {words[0]}" if beside else words[0]
-            yield from self.claim(fact, shown, Label(words, tuple(map(absolute, beside))), place, key=key)
+            stated = f"{abs(adjacent[0][0])} = {words[0]}" if adjacent else words[0]
+            yield from self.claim(fact, stated, Label(words, tuple(map(absolute, adjacent))), place, key=key)
 
     def word(self, fact: str, words: tuple[str, ...], place: Span | None = None) -> Iterator[Claim]:
         """Yield the claim that one of these words is printed."""

@@ -81,7 +81,7 @@ def _claims_of_enum(name: str, entries: Map, notation: Notation) -> Iterator[Cla
         if isinstance(entry, Map) and "line" in entry:
             maker = ClaimMaker.of(f"enum {name}", entries.key_span(key), entry)
             yield from maker.claim("enum", str(key), Number(absolute(numbers_in(key))))
-            yield from maker.label("enum", notation.label(entry), entries.key_span(key), beside=(numbers_in(key),))
+            yield from maker.label("enum", notation.label(entry), entries.key_span(key), adjacent=(numbers_in(key),))
 
 
 def claims_of_entry(kind: str, entry: Map, notation: Notation) -> Iterator[Claim]:
@@ -126,11 +126,11 @@ def _claims_of_setting(maker: ClaimMaker, key: str, value: Any, place: Span) -> 
         return
     for code, meaning in value.items():
         run = [*numbers_in(code), *numbers_in(meaning)]
-        shown, at = f"{code}: {meaning}", value.span(code)
+        stated, at = f"{code}: {meaning}", value.span(code)
         if len(run) > 1:
-            yield from maker.run(key, shown, [run], at)
+            yield from maker.run(key, stated, [run], at)
         if words := _parity_words(meaning):
-            yield from maker.claim(key, shown, Label(words, (absolute(run[-1:]),)), at)
+            yield from maker.claim(key, stated, Label(words, (absolute(run[-1:]),)), at)
 
 
 def _parity_words(setting: Any) -> tuple[str, ...]:
@@ -177,7 +177,7 @@ class PrintedErratum(NamedTuple):
     """The text that the manual prints according to an erratum, and its place."""
 
     id: str
-    shown: str
+    stated: str
     place: Span
     numbers: tuple[Fraction, ...]
     texts: tuple[str, ...]

@@ -195,7 +195,7 @@ class Editions:
             there = {self.alignment.now(line) for line in was} - {None}
             may_be_gone = claim.optional or not self.in_new.places[claim]
             stands = ((stands or may_be_gone) and there <= now) or self.in_new.is_taken(claim)
-        return CitedFact(claim.subject, claim.fact, claim.shown, claim.where, stands)
+        return CitedFact(claim.subject, claim.fact, claim.stated, claim.where, stands)
 
     def _fell(self, erratum: PrintedErratum) -> bool:
         has_text = bool(erratum.numbers or erratum.texts)

@@ -131,17 +131,17 @@ def labels_found(labels: Sequence[Label], passage: Passage) -> dict[Label, Found
     """
     search = _LabelSearch(labels, passage)
     ways = {
-        right_beside: [
-            {label: search.found(label, after, way, right_beside) for label in labels}
-            for way in range(max(1, 0, *(len(label.beside) for label in labels)))
+        is_touching: [
+            {label: search.found(label, after, way, is_touching) for label in labels}
+            for way in range(max(1, 0, *(len(label.adjacent) for label in labels)))
             for after in (True, False)
         ]
-        for right_beside in (True, False)
+        for is_touching in (True, False)
     }
-    near, far = (max(ways[right_beside], key=_standing) for right_beside in (True, False))
+    near, far = (max(ways[is_touching], key=_standing) for is_touching in (True, False))
     if _standing(near) > _MOST * _standing(far):
         far = near | _outside(near, far)
-    numbered = sum(bool(label.beside) for label in labels)
+    numbered = sum(bool(label.adjacent) for label in labels)
     if numbered >= _FEWEST_LISTED or _standing(far) == numbered:
         return far
     return {label: max((way[label] for way in ways[False]), key=lambda place: place.times > 0) for label in labels}
@@ -149,14 +149,14 @@ def labels_found(labels: Sequence[Label], passage: Passage) -> dict[Label, Found
 
 def _outside(near: Mapping[Label, Found], far: Mapping[Label, Found]) -> dict[Label, Found]:
     """Return the labels that only `far` has, in lines above or below all others: in a footnote, say."""
-    lines = {line for label, place in near.items() if label.beside for line in place.lines}
+    lines = {line for label, place in near.items() if label.adjacent for line in place.lines}
     inside = range(min(lines, default=0), max(lines, default=0) + 1)
     alone = {label for label, place in far.items() if place.times and not near[label].times}
     return {label: far[label] for label in alone if not far[label].lines & set(inside)}
 
 
 def _standing(way: Mapping[Label, Found]) -> int:
-    return sum(place.times > 0 for label, place in way.items() if label.beside)
+    return sum(place.times > 0 for label, place in way.items() if label.adjacent)
 
 
 class _LabelSearch:
@@ -165,8 +165,8 @@ class _LabelSearch:
     def __init__(self, labels: Sequence[Label], passage: Passage) -> None:
         self.passage = passage
         spans = {label: {span for words in label.words for span in passage.places(words)} for label in labels}
-        longest = _without_inner({span for label, places in spans.items() if label.beside for span in places})
-        self.spans = {label: sorted(places & longest if label.beside else places) for label, places in spans.items()}
+        longest = _without_inner({span for label, places in spans.items() if label.adjacent for span in places})
+        self.spans = {label: sorted(places & longest if label.adjacent else places) for label, places in spans.items()}
         everywhere = set().union(*spans.values())
         inside = {id(token) for span in everywhere for token in passage.inside(*span)}
         self.numbers = [at for at, token in enumerate(passage.tokens) if id(token) not in inside]
@@ -177,17 +177,17 @@ class _LabelSearch:
         self.text_between = passage.manual.without_names("".join(text))
         """The text with blanks in place of the labels."""
 
-    def found(self, label: Label, after: bool, way: int, right_beside: bool) -> Found:
+    def found(self, label: Label, after: bool, way: int, is_touching: bool) -> Found:
         """One label, `after` its number or before it."""
-        beside = label.numbers(way)
+        adjacent = label.numbers(way)
         tokens: list[Token] = []
         lines = []
         for first, end in self.spans[label]:
-            if label.beside:
+            if label.adjacent:
                 number = self._number_before(first) if after else self._number_after(end)
-                if number is None or not self.passage.tokens[number].readings & beside:
+                if number is None or not self.passage.tokens[number].readings & adjacent:
                     continue
-                if right_beside and self._has_words_between(number, first, end):
+                if is_touching and self._has_words_between(number, first, end):
                     continue
                 tokens.append(self.passage.tokens[number])
             tokens += self.passage.inside(first, end)

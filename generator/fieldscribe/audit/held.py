@@ -146,11 +146,11 @@ class Held:
 
     def _labels_not_for_each(self) -> set[Claim]:
         """Yield labels that several subjects or flags share, that a place prints several times, but not for each."""
-        alike: dict[tuple[object, ...], list[tuple[Claim, Place]]] = {}
+        by_place: dict[tuple[object, ...], list[tuple[Claim, Place]]] = {}
         for claim, places in self.places.items():
             for place in places if isinstance(claim.evidence, Label) else ():
-                alike.setdefault((place.extent, claim.fact, claim.shown), []).append((claim, place))
-        return {claim for shared in alike.values() for claim, place in shared if 1 < place.found.times < len(shared)}
+                by_place.setdefault((place.extent, claim.fact, claim.stated), []).append((claim, place))
+        return {claim for shared in by_place.values() for claim, place in shared if 1 < place.found.times < len(shared)}
 
     def is_printed(self, claim: Claim) -> bool:
         """Return True if the text prints a claim where it is cited."""
@@ -169,7 +169,7 @@ class Held:
         """Return True if an erratum says that the description took this fact against the manual."""
         extents = [place.extent for place in self.places[claim]]
         codes = claim.words if claim.fact == "code" and self._lacks_a_letter(claim, extents) else ()
-        if (isinstance(claim.evidence, Label) and claim.evidence.beside) or claim.fact in _WORDS_OF_ROW:
+        if (isinstance(claim.evidence, Label) and claim.evidence.adjacent) or claim.fact in _WORDS_OF_ROW:
             codes = claim.words
         for erratum in self.errata_of.get(claim.about, ()):
             here = self._cites_one_of(erratum, extents)

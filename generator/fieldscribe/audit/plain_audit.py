@@ -169,7 +169,7 @@ def _errata(held: Held, outcome: Audit) -> None:
             outcome.uncheckable += 1
         elif not held.erratum_stands(erratum):
             place = f"{erratum.place.file}:{erratum.place.line}:{erratum.place.column}"
-            outcome.unprinted.append(Unprinted(erratum.id, erratum.shown, erratum.cited[0].first, place))
+            outcome.unprinted.append(Unprinted(erratum.id, erratum.stated, erratum.cited[0].first, place))
 
 
 def _missing(claim: Claim, held: Held, unused: dict[int, list[Unused]]) -> Missing:
@@ -178,7 +178,7 @@ def _missing(claim: Claim, held: Held, unused: dict[int, list[Unused]]) -> Missi
     there = [number for extent in extents for line in extent.lines for number in unused.get(line, ())]
     printed = _printed_instead(claim, [held.passage(extent) for extent in extents], there)
     nearest = None if printed else held.manual.nearest_with(claim.numbers, claim.words, first)
-    return Missing(claim.subject, claim.fact, claim.shown, first, last, claim.where, printed, nearest)
+    return Missing(claim.subject, claim.fact, claim.stated, first, last, claim.where, printed, nearest)
 
 
 def _printed_instead(claim: Claim, passages: list[Passage], unused: list[Unused]) -> str | None:
@@ -187,13 +187,13 @@ def _printed_instead(claim: Claim, passages: list[Passage], unused: list[Unused]
     if isinstance(evidence, Word) and evidence.rivals:
         return next((word for passage in passages for word in printed_notations(evidence, passage.pieces[0][2])), None)
     if isinstance(evidence, Label):
-        labels = (_label_beside(evidence, passage) for passage in passages if evidence.beside)
+        labels = (_label_with_number(evidence, passage) for passage in passages if evidence.adjacent)
         return next((words for words in labels if words), None)
     others = {number.number for number in unused if not readings_of(number.number) & claim.numbers}
     return others.pop() if len(others) == 1 and (claim.numbers or claim.fact == "code") else None
 
 
-def _label_beside(label: Label, passage: Passage) -> str | None:
+def _label_with_number(label: Label, passage: Passage) -> str | None:
     for token, end in zip(passage.tokens, passage.ends, strict=True):
         if token.readings & label.numbers(0):
             words = _END_OF_CELL.split(passage.text[end:], maxsplit=1)[0].strip(" .:=)-")

@@ -43,8 +43,8 @@ class _FlagClaims:
             yield from self.maker.run("flags", f"bits {self.high} and {self.low}", [ends], self.place, spread=True)
         is_value = any(set(label) <= set(words) or (label and words and label[0] in words[0]) for words in values)
         if not is_value:
-            beside = () if self.named or at_values else (self._bits_of_flag(), self._bits_of_flag(), self._masks())
-            yield from self.maker.label("flags", label, self.place, beside=beside)
+            adjacent = () if self.named or at_values else (self._bits_of_flag(), self._bits_of_flag(), self._masks())
+            yield from self.maker.label("flags", label, self.place, adjacent=adjacent)
         for name in ("mask", "active"):
             yield from self.maker.numbers(f"printed {name}", self.printed.get(name), self.place, key="flags")
         yield from self._values(values, "values" if once_for_all else "flags")
@@ -64,11 +64,11 @@ class _FlagClaims:
         others = () if key == "values" else (self._bits_of_flag(), self._masks())
         for entry, words in zip(self.flag.values, labels, strict=True):
             number = Fraction(entry.raw)
-            yield from self.maker.label("flag values", words, self.place, key=key, beside=((number,), *others))
-            shown = f"{self.flag.name} {entry.raw}"
+            yield from self.maker.label("flag values", words, self.place, key=key, adjacent=((number,), *others))
+            stated = f"{self.flag.name} {entry.raw}"
             evidence = Number(frozenset((number,)))
             is_optional = bool(words) or self.flag.width > 1 or not isinstance(self.node, Map)
-            yield from self.maker.claim("flag values", shown, evidence, self.place, key="flags", optional=is_optional)
+            yield from self.maker.claim("flag values", stated, evidence, self.place, key="flags", optional=is_optional)
 
     def _bits_of_flag(self) -> list[Fraction]:
         """Return the bits that may represent the flag: its ends, or those under `printed`."""
@@ -79,8 +79,8 @@ class _FlagClaims:
     def _masks(self) -> list[Fraction]:
         """Return the masks that may represent the flag, in its own bits and in the whole word."""
         always = self.point.fixed.bits if self.point.fixed is not None else 0
-        own = [1 << self.flag.low, 1 << self.flag.low + self.flag.width - 1]
-        masks = [*own, 1 << self.low, 1 << self.high, *(mask | always for mask in own)]
+        single = [1 << self.flag.low, 1 << self.flag.low + self.flag.width - 1]
+        masks = [*single, 1 << self.low, 1 << self.high, *(mask | always for mask in single)]
         return list(map(Fraction, dict.fromkeys(masks)))
 
     def _ends_of_run(self, bit: int) -> tuple[int, int]:
@@ -227,9 +227,9 @@ class PointClaims:
         for key in ("range", "range_in_units"):
             if self._states(key) and not self.point.flags:  # the flags of a word decide which numbers it holds
                 spread = _is_spread(self.facts.get(key))
-                for shown, numbers in _runs_of(self.facts.get(key)):
+                for stated, numbers in _runs_of(self.facts.get(key)):
                     ways = self._in_both_units(numbers, in_units=key == "range_in_units")
-                    yield from self.maker.run("range", shown, ways, self.facts.span(key), spread=spread)
+                    yield from self.maker.run("range", stated, ways, self.facts.span(key), spread=spread)
         if self.point.text is not None and self._states("characters"):
             characters = Fraction(self.point.text.characters)
             yield from self.maker.number("characters", characters, self.facts.span("characters"), key="range")
@@ -275,12 +275,12 @@ class PointClaims:
         if self.point.default_raw is not None:
             numbers = [Fraction(self.point.default_raw), *filter(None, (self.point.default,))]
             place = self.facts.span("default" if self.facts.layer("default") is not None else "default_in_units")
-            shown = str(self.facts.get("default", self.facts.get("default_in_units")))
+            stated = str(self.facts.get("default", self.facts.get("default_in_units")))
             entries = () if self.point.enum is None else self.point.enum.entries
             labels = [self.notation.label(entry.title) for entry in entries if entry.raw == self.point.default_raw]
-            words = (*self.notation.written(shown), *(word for label in labels for word in label))
+            words = (*self.notation.written(stated), *(word for label in labels for word in label))
             evidence = Number(absolute(numbers), words, names=self.notation.written("default"))
-            yield from self.maker.claim("default", shown, evidence, place)
+            yield from self.maker.claim("default", stated, evidence, place)
 
     def _enum(self) -> Iterator[Claim]:
         """Yield the claims of the numbers and labels of the enum, except entries of a shared enum that cite a line."""
@@ -295,22 +295,22 @@ class PointClaims:
         for number, entry in entries.items():
             if isinstance(entry, Map) and "line" in entry and entries is not value:
                 continue
-            place, beside = entries.key_span(number), numbers_in(number)
+            place, adjacent = entries.key_span(number), numbers_in(number)
             label = self.notation.label(entry) if isinstance(entry, Map) else ()
             quantity = numbers_in(entry.get("quantity")) if isinstance(entry, Map) else []
-            yield from self.maker.label("enum", label, place, beside=(beside,))
+            yield from self.maker.label("enum", label, place, adjacent=(adjacent,))
             if quantity:
-                shown = f"{number} = {entry['quantity']}"
-                yield from self.maker.run("enum", shown, [(beside[0], quantity[0])], place)
+                stated = f"{number} = {entry['quantity']}"
+                yield from self.maker.run("enum", stated, [(adjacent[0], quantity[0])], place)
             elif not label:
-                yield from self.maker.claim("enum", str(number), Number(absolute(beside)), place)
+                yield from self.maker.claim("enum", str(number), Number(absolute(adjacent)), place)
 
     def _special_codes(self) -> Iterator[Claim]:
         """Yield the claims of special codes, each with its name."""
         codes: Any = self.facts.get("special") if self._states("special") else None
         for number, entry in codes.items() if isinstance(codes, Map) else ():
             label = self.notation.label(entry) if isinstance(entry, Map) else ()
-            yield from self.maker.label("special", label, codes.key_span(number), beside=(numbers_in(number),))
+            yield from self.maker.label("special", label, codes.key_span(number), adjacent=(numbers_in(number),))
 
     def _printed(self) -> Iterator[Claim]:
         """Yield the claims of `printed`: addresses in each numbering, ranges, steps, pairs."""
@@ -319,8 +319,8 @@ class PointClaims:
             is_numbering, place = name not in KEYS_OF_PRINTED, printed.span(name)
             key, fact = "address" if is_numbering else _KEY_IN_LINES.get(name, name), f"printed {name}"
             if name in ("range", "range_in_units"):
-                for shown, numbers in _runs_of(value):
-                    yield from self.maker.run(fact, shown, [numbers], place, key=key, spread=_is_spread(value))
+                for stated, numbers in _runs_of(value):
+                    yield from self.maker.run(fact, stated, [numbers], place, key=key, spread=_is_spread(value))
             elif name == "pairs":
                 for raw, number in value.items():
                     pair = [*numbers_in(raw), *numbers_in(number)]

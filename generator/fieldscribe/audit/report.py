@@ -78,10 +78,10 @@ def _unused_together(unused: list[Unused]) -> Iterator[list[Unused]]:
 def _unused(numbers: list[Unused]) -> str:
     first = numbers[0]
     subjects = ", ".join(first.subjects[:3]) + (", ..." if len(first.subjects) > 3 else "")
-    shown = ", ".join(number.number[:_MOST_WORDS] for number in numbers[:_MOST_NUMBERS])
+    reported = ", ".join(number.number[:_MOST_WORDS] for number in numbers[:_MOST_NUMBERS])
     more = f" and {len(numbers) - _MOST_NUMBERS} more" if len(numbers) > _MOST_NUMBERS else ""
     column = f", column {first.column}" if len(numbers) == 1 else ""
-    return f"{subjects}: no fact uses {shown}{more} at {_lines(first.line, numbers[-1].line)}{column}"
+    return f"{subjects}: no fact uses {reported}{more} at {_lines(first.line, numbers[-1].line)}{column}"
 
 
 def _finding(place: str, kind: str, text: str) -> Line:
@@ -115,8 +115,8 @@ def comparison_lines(outcome: Comparison, *, with_lines: bool = True) -> Iterato
     lines = outcome.lines if with_lines else []
     for line in lines:
         yield from _changed_line(line)
-    shown = {fact for line in lines for fact in line.facts}
-    others = [fact for fact in outcome.fallen if fact not in shown]
+    reported = {fact for line in lines for fact in line.facts}
+    others = [fact for fact in outcome.fallen if fact not in reported]
     for subject, facts in groupby(others, key=lambda fact: fact.subject):
         for place, named in _listed(list(facts)):
             yield _finding(place, "missing", f"{subject}: {named}: not printed where it is cited")

@@ -16,7 +16,7 @@ from fieldscribe.language.load import load
 from fieldscribe.language.nodes import MOST_BYTES, SourceFile, decoded
 from fieldscribe.output.writing import replace
 from fieldscribe.pipeline import DEVICE_FILE
-from fieldscribe.safe_files import State, read_regular, shown_path, state_of
+from fieldscribe.safe_files import State, path_text, read_regular, state_of
 
 _SCHEMA_LINE = re.compile(r"#[ \t]*yaml-language-server:[ \t]*\$schema=((?:\.\./)*[\w.-]+\.json)[ \t]*")
 _SUFFIX = ".fieldscribe-new"
@@ -28,17 +28,17 @@ def formatted(name: str, data: bytes, report: Report) -> bytes | None:
     if source is None:
         return None
     text = unbroken(source.text)
-    own = Report()
-    before = load(SourceFile(name, text), own)
-    report.extend(own)
-    if own.has_errors:
+    faults = Report()
+    before = load(SourceFile(name, text), faults)
+    report.extend(faults)
+    if faults.has_errors:
         return None
     try:
         new = canonical(text)
     except OddError as odd:
         report.error("no-canonical-form", odd.message, source.span(odd.line, odd.column), odd.hint)
         return None
-    if not _same(before, load(SourceFile(name, new), own)) or own.has_errors or comments(new) != comments(text):
+    if not _same(before, load(SourceFile(name, new), faults)) or faults.has_errors or comments(new) != comments(text):
         message = "internal error: the canonical form would say something else; the file was left as it is"
         report.error("internal-error", message, source.span(1, 1), "this is a bug: please report it with the file")
         return None
@@ -79,7 +79,7 @@ class Formatting:
             return
         self._seen.add(real)
         content = read_regular(path, MOST_BYTES)
-        new = formatted(shown_path(path), content.data, self.report)
+        new = formatted(path_text(path), content.data, self.report)
         if new is not None:
             self._settle(path, content.data, new, content.state)
         self._schema(path, content.data)

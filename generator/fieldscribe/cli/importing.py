@@ -210,8 +210,8 @@ def _print_left_out(drafted: Draft) -> None:
     lines = [str(columns.table.line) for columns in drafted.tables if not columns.hold_points]
     if lines:
         verbs = "s hold no points and are" if len(lines) > 1 else " holds no points and is"
-        shown = ", ".join(lines[:12]) + (", …" if len(lines) > 12 else "")
-        print(f"{len(lines)} table{verbs} left out (line {shown}); `--list` shows them", file=sys.stderr)
+        line_numbers = ", ".join(lines[:12]) + (", …" if len(lines) > 12 else "")
+        print(f"{len(lines)} table{verbs} left out (line {line_numbers}); `--list` shows them", file=sys.stderr)
 
 
 # CAN databases.

@@ -257,16 +257,16 @@ class _Table:
 
     def __call__(self, readings: list[Reading]) -> None:
         columns, lines = terminal_size()
-        shown = readings[: lines - 2]
+        first_rows = readings[: lines - 2]
         width = max(len(reading.label) for reading in readings) if readings else 0
         rows: list[Line] = []
-        for reading in shown:
+        for reading in first_rows:
             is_new = self._before and self._before.get(reading.name) != reading
             text = visible(reading.text)[: max(8, columns - width - 5)]
             rows.append(
                 [("", f"{visible(reading.label):<{width}}  "), ("strong" if is_new else style_of(reading), text)]
             )
-        rest = len(readings) - len(shown)
+        rest = len(readings) - len(first_rows)
         more = f", {rest} more below the screen" if rest else ""
         rows.append([("hint", f"{datetime.now():%H:%M:%S}{more}; Ctrl-C ends")])
         sys.stdout.write(f"\x1b[{self._drawn}F\x1b[J" if self._drawn else "")

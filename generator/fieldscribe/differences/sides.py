@@ -17,7 +17,7 @@ from fieldscribe.facts.table import Exported
 from fieldscribe.families import FAMILIES
 from fieldscribe.language.nodes import MOST_BYTES
 from fieldscribe.pipeline import find_devices, is_new, load_analysis
-from fieldscribe.safe_files import read_regular, shown_path
+from fieldscribe.safe_files import path_text, read_regular
 
 _MOST_MODEL_BYTES = 256 << 20
 _MOST_FILES = 10_000
@@ -70,9 +70,9 @@ def opened(argument: str, report: Report) -> Iterator[dict[str, Side]]:
         copy = copied(revision, inside, folder)
         cut = len(argument) if copy == folder else max(argument.rfind("/"), argument.find(":")) + 1
         name = argument[:cut] if argument[:cut].endswith((":", "/")) else f"{argument[:cut]}/"
-        own, name_of = Report(), _renaming(f"{shown_path(folder)}/", name)
-        sides = _sides(copy, own, name_of)
-        report.extend(own.in_files(name_of))
+        findings, name_of = Report(), _renaming(f"{path_text(folder)}/", name)
+        sides = _sides(copy, findings, name_of)
+        report.extend(findings.in_files(name_of))
         yield sides
 
 
@@ -83,14 +83,14 @@ def _renaming(copy: str, name: str) -> Callable[[str], str]:
 
 def _sides(path: Path, report: Report, name_of: Callable[[str], str]) -> dict[str, Side]:
     if path.suffix == ".json" and not path.is_dir():
-        model = _model(path, name_of(shown_path(path)))
-        return {str(model["device"]): Side(model, None, shown_path(path), name_of, copied=name_of is not str)}
+        model = _model(path, name_of(path_text(path)))
+        return {str(model["device"]): Side(model, None, path_text(path), name_of, copied=name_of is not str)}
     known: dict[str, Path] = {}
     sides = {}
     for device_file in find_devices([path], report):
         analysis = load_analysis(device_file, report, with_errors=True)
         if analysis is not None and is_new(analysis.device, device_file, known, report):
-            described, name = Described(analysis), shown_path(device_file)
+            described, name = Described(analysis), path_text(device_file)
             side = Side(export_model(described.device), described, name, name_of, copied=name_of is not str)
             sides[side.device] = side
     return sides
@@ -137,8 +137,8 @@ def copied(revision: str, path: str, folder: Path) -> Path:
         return folder
     name = path.rpartition("/")[2]
     above = path.removesuffix(name) or "/"
-    beside, _ = _object(commit, revision, above) if above != "/" else (f"{commit}^{{tree}}", "tree")
-    _write((blob for blob in _blobs(beside) if len(blob.parts) == 1), folder)
+    above_tree, _ = _object(commit, revision, above) if above != "/" else (f"{commit}^{{tree}}", "tree")
+    _write((blob for blob in _blobs(above_tree) if len(blob.parts) == 1), folder)
     if not (folder / name).is_file():
         raise UnclearError(f"`{path}` is not a regular file in `{revision}`")
     return folder / name

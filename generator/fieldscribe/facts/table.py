@@ -146,13 +146,13 @@ class Fact:
         """Return the fact with the views that `diff` compares instead of the exported value."""
         return replace(self, views=views)
 
-    def says(self, label: str = "", **said: Any) -> Fact:
+    def says(self, label: str = "", **changes: Any) -> Fact:
         """Return the fact with its text for people.
 
         `label` and `text` make a row of an explanation (`rows` makes several), `remark` a remark in a table of points.
         Without `text` the value is the text. `column` describes the column of the value in the sheets.
         """
-        return replace(self, label=label, **said)
+        return replace(self, label=label, **changes)
 
     def compared(self) -> tuple[View | Parts, ...]:
         """The views of the fact that `diff` compares."""
@@ -174,8 +174,8 @@ class Fact:
         """What decides the value for a point: `shape`, `terms` or `limits`; empty if it is the point itself."""
         attribute = (self.attribute or self.key).partition(".")[0]
         fields = {"terms": Terms.__annotations__, "shape": Shape.__annotations__}
-        own = "" if self.value else next((name for name, known in fields.items() if attribute in known), "")
-        return self.shared or own
+        by_attribute = "" if self.value else next((name for name, known in fields.items() if attribute in known), "")
+        return self.shared or by_attribute
 
     def text_of(self, point: Point, context: Context) -> str:
         """Return the text of the fact of a point; empty if the fact is absent."""

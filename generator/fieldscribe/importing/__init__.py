@@ -147,8 +147,8 @@ def compilable(groups: Sequence[DraftGroup], head: Head, *, with_head: bool) -> 
         top, head_lines, group_lines = draft_lines(groups, head)
         lines = [*top, *head_lines, *group_lines]
         if not _withdraw_rejected(lines):
-            shown = lines if with_head else [*top, *group_lines[1:]]
-            return "".join(f"{line.text}\n" for line in shown)
+            printed = lines if with_head else [*top, *group_lines[1:]]
+            return "".join(f"{line.text}\n" for line in printed)
 
 
 def _withdraw_rejected(lines: Sequence[Line]) -> bool:

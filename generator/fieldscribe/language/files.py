@@ -10,7 +10,7 @@ from fieldscribe.language.keys.places import DEVICE, PART
 from fieldscribe.language.load import load
 from fieldscribe.language.nodes import Map, read_source
 from fieldscribe.language.shape import check_shape
-from fieldscribe.safe_files import Inputs, shown_path
+from fieldscribe.safe_files import Inputs, path_text
 
 _PART_KEYS = frozenset({"group", "points"})
 _NEEDED = ("device", "family", "documents")
@@ -64,7 +64,7 @@ def _is_part(header: Map, file: Path, report: Report) -> bool:
     whole = file.parent / "device.yaml"
     message = f"`{file.name}` is a part of a description and no device file"
     hint = f"name {whole.name} beside it" if whole.exists() else "name the device.yaml that lists it under `parts`"
-    report.error("no-device", message, Span(shown_path(file), 1, 1), hint)
+    report.error("no-device", message, Span(path_text(file), 1, 1), hint)
     return True
 
 

@@ -19,7 +19,7 @@ from typing import Any, NamedTuple, TypeAlias
 import yaml
 
 from fieldscribe.diagnostics import LINE_BREAK, Report, Span
-from fieldscribe.safe_files import Content, Inputs, UnfitFileError, read_regular, shown_path
+from fieldscribe.safe_files import Content, Inputs, UnfitFileError, path_text, read_regular
 
 MOST_BYTES = 16 * 1024 * 1024
 """The largest description file that is read: about 100,000 points."""
@@ -87,7 +87,7 @@ def read_source(path: Path, report: Report, inputs: Inputs | None = None) -> Sou
 
     `inputs` records the bytes that were read.
     """
-    name = shown_path(path)
+    name = path_text(path)
     content = _content(path, Span(name, 1, 1), report)
     if content is None:
         return None

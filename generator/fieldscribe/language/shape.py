@@ -172,11 +172,11 @@ class MappingCheck:
     def _needed(self) -> Mapping[str, Mapping[str, str]]:
         """The message for each key that must be there: always (under an empty key), or beside another key."""
         always = {key: f"the key `{key}` is missing" for key in required(self.place)}
-        beside = {
+        with_others = {
             key: {other: f"the key `{other}` is missing: `{key}` needs it" for other in others}
             for key, others in needs(self.place).items()
         }
-        return {"": always, **beside}
+        return {"": always, **with_others}
 
     def __call__(self, value: Map, holder: Map | Seq, at: Any, report: Report) -> bool:
         """Return True if the mapping is right; a `Check`."""

@@ -155,7 +155,7 @@ class Scanner:
         line = self._connection
         device: AnyDevice = line.device(self._model, unit) if self._model else line.part.any_device(line.open, unit)
         try:
-            return Answer(unit, True, self._asked(device))
+            return Answer(unit, True, self._identification(device))
         except OtherDeviceError as error:
             return Answer(unit, True, f"another device: {error}", True)
         except (LineError, RequestError):
@@ -168,7 +168,7 @@ class Scanner:
         finally:
             self.requests += device.traffic.requests
 
-    def _asked(self, device: AnyDevice) -> str:
+    def _identification(self, device: AnyDevice) -> str:
         if self._model is None:
             return str(self._connection.part.probe(device))
         found = device.identify() if self._model.identifications else {}

@@ -32,13 +32,13 @@ class PartialReads:
         Raises FieldscribeError if nothing answers.
         """
         try:
-            return self._asked(what)
+            return self._values_of(what)
         except FieldscribeError as error:
             if not error.lost or isinstance(error, LineError):
                 raise
             return self._singly(items, error)
 
-    def _asked(self, what: str | Sequence[str]) -> dict[str, Any]:
+    def _values_of(self, what: str | Sequence[str]) -> dict[str, Any]:
         values: dict[str, Any] = self._device.read_many(what, errors="return")
         good = (name for name, value in values.items() if not isinstance(value, FieldscribeError))
         self._answering = next(good, self._answering)
@@ -49,7 +49,7 @@ class PartialReads:
         silent = 0
         for item in items:
             try:
-                values.update(self._asked([item]) if len(items) > 1 and self.gone is None else {item: error})
+                values.update(self._values_of([item]) if len(items) > 1 and self.gone is None else {item: error})
             except FieldscribeError as lost:
                 if not lost.lost:
                     raise
@@ -66,7 +66,7 @@ class PartialReads:
         if isinstance(error, LineError) or not self._answering:
             return error if silent >= _MOST_SILENT or isinstance(error, LineError) else None
         try:
-            self._asked([self._answering])
+            self._values_of([self._answering])
         except FieldscribeError as lost:
             return lost
         return None
@@ -173,10 +173,10 @@ def in_words(error: FieldscribeError, *, alone: bool = False) -> str:
 
     Arguments of the device's constructor are options here.
     """
-    asked = [] if alone else [error.group and f"group {error.group}", error.point]
+    subjects = [] if alone else [error.group and f"group {error.group}", error.point]
     option = "with" if error.status == "bad_base" else "variant"
     advice = error.undecided and f"give --{option} {error.undecided}=VALUE"
-    return ": ".join(filter(None, [*asked, error.reason, advice]))
+    return ": ".join(filter(None, [*subjects, error.reason, advice]))
 
 
 class Reader:

@@ -211,11 +211,11 @@ def interrupted(path: Path) -> list[str]:
     names = [line(str(name)) for name in head["writes"]]
     states = {note[key]: key for note in notes for key in ("begin", "done", "refused") if type(note.get(key)) is int}
     device = line(f"{head.get('device')}, unit {head.get('unit')}, {head.get('line')}")
-    told = [f"the restore of {line(str(head.get('started')))} to {device} did not end"]
+    notice = [f"the restore of {line(str(head.get('started')))} to {device} did not end"]
     for what, keys in (("written", ("done",)), ("perhaps written", ("begin",)), ("not written", (None, "refused"))):
         if some := [name for number, name in enumerate(names) if states.get(number) in keys]:
-            told.append(f"{what}: {', '.join(some)}")
-    return told
+            notice.append(f"{what}: {', '.join(some)}")
+    return notice
 
 
 def _notes(lines: list[str]) -> Iterator[dict[str, Any]]:

@@ -166,7 +166,7 @@ def _read(place: Path, device: str, layout: Layout) -> tuple[Targets, dict[str, 
         }
         facts = loaded.get("facts")
         record = None if facts is None else Record(str(facts["version"]), str(facts["digest"]))
-        return targets, {str(target): asked for target, asked in loaded.get("asked", {}).items()}, record
+        return targets, {str(target): options for target, options in loaded.get("asked", {}).items()}, record
     except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return {}, {}, None
 
@@ -207,7 +207,7 @@ def contents_of(data: bytes) -> Contents:
 class Spool:
     """An unnamed temporary file, created for the first large text; it disappears when the run ends, in any way.
 
-    A child process that shares the file uses `keep_apart`: such contents travel without the file.
+    A child process that shares the file uses `keep_for_parent`: such contents travel without the file.
     """
 
     def __init__(self) -> None:
@@ -232,12 +232,12 @@ class Spool:
             size += spool.write(data)
         return Contents(digest.hexdigest(), size, b"", spool, start)
 
-    def keep_apart(self, text: str) -> Contents:
+    def keep_for_parent(self, text: str) -> Contents:
         """Return the contents for a text, in a child process. Raises UnicodeEncodeError."""
         return self.keep(text)._replace(spool=None)
 
     def joined(self, contents: Contents) -> Contents:
-        """Return contents from `keep_apart`, joined with the file that has them."""
+        """Return contents from `keep_for_parent`, joined with the file that has them."""
         return contents if len(contents.data) == contents.size else contents._replace(spool=self._opened())
 
     def share(self) -> Self:

@@ -23,7 +23,7 @@ from fieldscribe.output.lock import only_run
 from fieldscribe.output.memory import Memory, Result
 from fieldscribe.output.writing import Plan, TargetFiles, carry_out, changed_since, plan_of
 from fieldscribe.pipeline import Models, TargetError, is_new, load_models, outputs
-from fieldscribe.safe_files import Inputs, shown_path
+from fieldscribe.safe_files import Inputs, path_text
 from fieldscribe.targets import TARGETS, knows, target
 
 T = TypeVar("T")
@@ -160,7 +160,7 @@ class Generation:
 
     def _report_refused(self, plan: Plan) -> None:
         for path, reason in sorted(plan.refused.items()):
-            place = Span(shown_path(self.out / path), 1, 1)
+            place = Span(path_text(self.out / path), 1, 1)
             self.report.error("foreign-file", f"a file is in the way: {reason}", place, plan.advice(path))
 
     def _has_targets(self, device_file: Path, models: Models) -> bool:
@@ -171,14 +171,14 @@ class Generation:
             named = f"target {unknown[0]} does" if len(unknown) == 1 else f"targets {', '.join(unknown)} do"
             message = f"the {named} not know the family {device.family}; nothing of {device.id} was written"
             hint = "choose others with --target"
-            self.report.error("unknown-family", message, Span(shown_path(device_file), 1, 1), hint)
+            self.report.error("unknown-family", message, Span(path_text(device_file), 1, 1), hint)
         return not unknown
 
     def _report_bug(self, device_file: Path, where: str, bug: str) -> None:
         """Report an internal error as a finding of its device."""
         message = f"internal error in {where}: {bug}; nothing of this device was written"
         hint = "this is a bug: please report it to the project with the description (FIELDSCRIBE_DEBUG=1 shows where)"
-        self.report.error("internal-error", message, Span(shown_path(device_file), 1, 1), hint)
+        self.report.error("internal-error", message, Span(path_text(device_file), 1, 1), hint)
 
 
 def _paths(device: Device, files_of_targets: TargetFiles) -> Iterator[str]:
@@ -275,5 +275,5 @@ def _all_rendered(devices: list[Models], targets: tuple[str, ...], spool: Spool)
     """Yield the files of each device for each target, in the child process."""
     for models in devices:
         for name in targets:
-            yield rendered(models, name, spool.keep_apart)
+            yield rendered(models, name, spool.keep_for_parent)
     spool.share()

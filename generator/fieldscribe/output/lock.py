@@ -63,7 +63,7 @@ def only_run(out: Path, waiting: Callable[[], None], patience: float = PATIENCE)
 
 def _acquire(place: Path, waiting: Callable[[], None], patience: float) -> int:
     """Return the handle of the lock file once it is locked. Raises TimeoutError and other OSErrors."""
-    start, has_told, misses = time.monotonic(), False, 0
+    start, has_reported, misses = time.monotonic(), False, 0
     while True:
         try:
             handle, misses = _try_lock(place), 0
@@ -77,9 +77,9 @@ def _acquire(place: Path, waiting: Callable[[], None], patience: float) -> int:
         if waited > patience:
             message = f"another run has been writing there for {patience:.0f} seconds"
             raise TimeoutError(errno.ETIMEDOUT, message, str(place.parent))
-        if waited > _SILENCE and not has_told:
+        if waited > _SILENCE and not has_reported:
             waiting()
-            has_told = True
+            has_reported = True
         time.sleep(_PAUSE)
 
 

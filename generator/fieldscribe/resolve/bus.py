@@ -171,7 +171,7 @@ def _check_keys(scope: Scope, node: Map, keys: BusKeys) -> None:
 
 def _knows(family: Family, key: str) -> bool:
     """Return True if the family has this key under `bus`: a common key or one of its own."""
-    return key in family.bus or any(own.name == key and BUS in own.places for own in keys_of_family(family))
+    return key in family.bus or any(fact.name == key and BUS in fact.places for fact in keys_of_family(family))
 
 
 def ends_of(scope: Scope, node: Map, key: str, complaint: str, last: int) -> tuple[int, int]:

@@ -155,8 +155,8 @@ def _is_open(key: str, point: PointFacts, asking: PointFacts) -> bool:
 def _clauses_of_point(scales: Scales, point: PointFacts, asking: tuple[PointFacts, ...]) -> Clauses:
     clauses = _clauses_of(point, scales, asking)
     variant = point.variant
-    own = () if variant is None else (conditions.Comparison(variant.axis, "==", (variant.value,)),)
-    return tuple(own + clause for clause in clauses)
+    of_variant = () if variant is None else (conditions.Comparison(variant.axis, "==", (variant.value,)),)
+    return tuple(of_variant + clause for clause in clauses)
 
 
 def _comparison(

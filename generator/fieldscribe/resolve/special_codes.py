@@ -63,7 +63,7 @@ class SpecialCodes:
         found, shared = self._specials_of(levels, kind, width) if levels else ((), "")
         if not coding:
             return found, shared
-        own = tuple(
+        of_point = tuple(
             replace(
                 code,
                 low=coded_number(code.low & mask_of(width), width, coding) if code.hexadecimal else code.low,
@@ -72,7 +72,7 @@ class SpecialCodes:
             )
             for code in found
         )
-        return own + (_not_decimal(own, width) if coding == BCD else ()), ""
+        return of_point + (_not_decimal(of_point, width) if coding == BCD else ()), ""
 
     def _specials_of(self, levels: tuple[_Level, ...], kind: str, width: int) -> tuple[tuple[Special, ...], str]:
         codes = self._merged([self.held(node, kind, width) for _, node in levels])

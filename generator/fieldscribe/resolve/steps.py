@@ -36,7 +36,7 @@ class Steps:
     def __init__(self, scope: Scope, bus: Bus, symbols: SymbolTable, points: Mapping[str, Point]) -> None:
         self.scope, self.bus, self.symbols, self.points = scope, bus, symbols, points
         self.arguments: dict[str, tuple[int, int]] = {}
-        self._said: list[str] = []
+        self._meanings: list[str] = []
         """The values that the points of the step shall hold."""
 
     def command(self, node: Map) -> SteppedCommand | None:
@@ -116,7 +116,7 @@ class Steps:
             write=None if action == "wait" else self._function(node, space, len(words), writes=True),
             within=_milliseconds(str(node["within"])) if action == "wait" else None,
             when=self._condition(node),
-            says=", ".join(map(str, words) if action == "words" else self._said),
+            says=", ".join(map(str, words) if action == "words" else self._meanings),
             base=base,
         )
 
@@ -168,7 +168,7 @@ class Steps:
         if values.broken:
             raise FactError  # it has a finding already
         placed: dict[int, Word] = {}
-        self._said = []
+        self._meanings = []
         spaces: set[tuple[str, str | None]] = set()
         for named, value in values.items():
             point, span = self._point(values, named, action), values.key_span(named)
@@ -197,8 +197,8 @@ class Steps:
         if facts.failed:
             raise FactError
         reached = point.writable if action == "write" else point.readable
-        apart = point.variant is not None or (point.bits and point.write_place)
-        if not reached or apart or point.text is not None or point.untyped is not None or not point.addresses:
+        is_split = point.variant is not None or (point.bits and point.write_place)
+        if not reached or is_split or point.text is not None or point.untyped is not None or not point.addresses:
             message = f"`{point.name}` cannot be {'written' if action == 'write' else 'read'} by a step"
             hint = "name a number that all variants have at one address, or write its words by `at` and `words`"
             raise FactError("steps", message, values.key_span(named), hint)
@@ -209,14 +209,14 @@ class Steps:
         span = values.span(named)
         if named.endswith(RAW):
             word = self._formula(value, span)
-            said = str(word)
+            meaning = str(word)
         else:
             if str(value) in self.arguments:
                 message = f"`{value}` is an argument, and `{named}` takes values"
                 raise FactError("steps", message, span, f"arguments are raw numbers: write `{named}{RAW}: {value}`")
             word = Word(StatedValues(self.scope, values).raw(point, named, value))
-            said = meaning_text(point, word.constant) or str(word)
-        self._said.append(f"{named} = {said}")
+            meaning = meaning_text(point, word.constant) or str(word)
+        self._meanings.append(f"{named} = {meaning}")
         for raw in self._extremes(word):
             self._check(point, with_fixed(point, raw) if word.factor == 0 else raw, span, action)
         if word.factor == 0:

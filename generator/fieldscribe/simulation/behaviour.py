@@ -67,7 +67,7 @@ class Behaviour:
             self._stale |= self._readers.get(point.name, frozenset())
         self.advance(now)
 
-    def heard(self, now: float) -> None:
+    def end_silence(self, now: float) -> None:
         """Note a telegram of the master: delays on its silence start anew."""
         self.advance(now)
         for number in (ZERO, Fraction(1)) if SILENCE in self._plant else ():

@@ -162,8 +162,8 @@ class SimulatedDevice:
         together = {point.name for point in points}
         numbers = {point.name: self._number(point, cells, together) for point in points}
         for condition in _OPENED.intersection(self.conditions):
-            if asked := [point for point in points if condition in point.name]:
-                self.conditions[condition] = all(numbers[each.name] == self.memory.raw(each.name) for each in asked)
+            if needed := [point for point in points if condition in point.name]:
+                self.conditions[condition] = all(numbers[each.name] == self.memory.raw(each.name) for each in needed)
                 return points
         for point in points:
             self._check(point, numbers[point.name], numbers if point.write_with else {})
@@ -178,10 +178,10 @@ class SimulatedDevice:
             self.behaviour.written(changed, self.clock.now())
         return points
 
-    def heard(self) -> None:
+    def end_silence(self) -> None:
         """Handle a telegram of the master; the device may watch for its silence."""
         if self.behaviour is not None:
-            self.behaviour.heard(self.clock.now())
+            self.behaviour.end_silence(self.clock.now())
 
     def perform(self, command: Command) -> None:
         """Carry out a command of one write: store what waits for it, and be busy for a while."""

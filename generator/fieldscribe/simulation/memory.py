@@ -54,16 +54,16 @@ def starting_raw(layout: Layout, point: Point, settings: Settings, random: Rando
 
 def _identifying(layout: Layout, point: Point) -> tuple[list[int], set[int]]:
     """Return the raw numbers of a point that identify this device, best first, and those of other variants."""
-    asked: list[list[int]] = []
+    accepted: list[list[int]] = []
     others: set[int] = set()
     for known in layout.device.identifications:
         if known.point == point.name:
             raws = [*known.raws, *(pattern_of_text(point.text, text) for text in known.texts if point.text is not None)]
             if known.variant is None or layout.variants[known.variant.axis] == known.variant.value:
-                asked.append(raws)
+                accepted.append(raws)
             else:
                 others.update(raws)
-    both = [raw for raw in asked[0] if all(raw in raws for raws in asked)] if asked else []
+    both = [raw for raw in accepted[0] if all(raw in raws for raws in accepted)] if accepted else []
     return sorted(both, key=lambda raw: (raw in others, raw != point.default_raw)), others
 
 

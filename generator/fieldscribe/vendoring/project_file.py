@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 from fieldscribe.diagnostics import Report, Span, did_you_mean
 from fieldscribe.language.keys.forms import ID
 from fieldscribe.pipeline import DEVICE_FILE
-from fieldscribe.safe_files import Inputs, read_regular, shown_path
+from fieldscribe.safe_files import Inputs, path_text, read_regular
 from fieldscribe.text import shortened
 from fieldscribe.vendoring.requests import LANGUAGE_OF, LANGUAGES, CodeRequest
 
@@ -65,10 +65,10 @@ def read_project(file: Path, report: Report, inputs: Inputs | None = None) -> li
         text = data.decode("utf-8-sig")
         document = tomllib.loads(text)
     except UnicodeDecodeError:
-        report.error("bad-project", "the file is no UTF-8 text", Span(shown_path(file), 1, 1))
+        report.error("bad-project", "the file is no UTF-8 text", Span(path_text(file), 1, 1))
         return []
     except RecursionError:
-        report.error("bad-project", "lists or tables are nested too deeply", Span(shown_path(file), 1, 1))
+        report.error("bad-project", "lists or tables are nested too deeply", Span(path_text(file), 1, 1))
         return []
     except ValueError as error:  # of tomllib, or of a number or a date in it
         report.error("bad-project", f"this is no TOML: {shortened(_message(error))}", _span_of(error, file, text))
@@ -152,8 +152,8 @@ class _Reader:
         for line in range(first, ends[0] if ends else len(self._lines)):
             match = re.match(rf"\s*(\"?){re.escape(key)}\1\s*=", self._lines[line])
             if match is not None:
-                return Span(shown_path(self._file), line + 1, self._lines[line].index(key) + 1, len(key))
-        return Span(shown_path(self._file), first + 1, 1)
+                return Span(path_text(self._file), line + 1, self._lines[line].index(key) + 1, len(key))
+        return Span(path_text(self._file), first + 1, 1)
 
 
 def _is_device_head(line: str) -> bool:
@@ -176,4 +176,4 @@ def _span_of(error: ValueError, file: Path, text: str) -> Span:
     match = _WHERE.search(str(error))
     lines = text.rstrip().split("\n")
     line, column = (int(match[1]), int(match[2])) if match else (len(lines), len(lines[-1]) + 1)
-    return Span(shown_path(file), line, column)
+    return Span(path_text(file), line, column)

@@ -298,8 +298,8 @@ def files_of(device: Device, request: CodeRequest, others: Mapping[str, str] = {
     if request.rows and f"c/{named.id}_rows.h" not in outputs:
         raise UnclearError(f"`{device.id}` has no rows", "only devices on Modbus have")
     if request.points and request.language == "c" and not request.single_file:  # of which a program may have several
-        beside = [text for path, text in others.items() if f"c/{path}" not in files]
-        files = pruned(files, [*outputs.values(), *beside], set(request.points) - set(request.chosen))
+        unpruned = [text for path, text in others.items() if f"c/{path}" not in files]
+        files = pruned(files, [*outputs.values(), *unpruned], set(request.points) - set(request.chosen))
     files |= outputs
     files = {path.removeprefix(f"{request.language}/"): text for path, text in files.items()}
     if request.single_file:

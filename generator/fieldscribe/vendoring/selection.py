@@ -39,10 +39,10 @@ def select(device: Device, words: Sequence[str]) -> Device:
         raise _all_of(unclear)
     kept = tuple(command for command in device.commands if command.name in commands)
     stepped = tuple(command for command in device.stepped_commands if command.name in commands)
-    asked = [command.busy for command in kept if command.busy is not None]
-    asked += [name for command in stepped for step in command.steps if step.when for name in step.when.names]
-    asked += [identification.point for identification in device.identifications]
-    return _reduced(device, tuple(_with_dependencies(device, items, asked)), kept, stepped)
+    needed = [command.busy for command in kept if command.busy is not None]
+    needed += [name for command in stepped for step in command.steps if step.when for name in step.when.names]
+    needed += [identification.point for identification in device.identifications]
+    return _reduced(device, tuple(_with_dependencies(device, items, needed)), kept, stepped)
 
 
 def address_only_messages(device: Device, words: Iterable[str]) -> Iterator[str]:
@@ -57,10 +57,10 @@ def _all_of(unclear: Mapping[str, UnclearError]) -> UnclearError:
     """Return one error for all of these words."""
     if len(unclear) == 1:
         return next(iter(unclear.values()))
-    shown = list(unclear.items())[:_MOST_NAMED]
+    quoted = list(unclear.items())[:_MOST_NAMED]
     more = [f"and {len(unclear) - _MOST_NAMED} more"] if len(unclear) > _MOST_NAMED else []
-    hints = [f"for `{shortened(word)}`, {error.hint}" for word, error in shown if error.hint]
-    return UnclearError("; ".join([*(error.message for _, error in shown), *more]), "; ".join(hints))
+    hints = [f"for `{shortened(word)}`, {error.hint}" for word, error in quoted if error.hint]
+    return UnclearError("; ".join([*(error.message for _, error in quoted), *more]), "; ".join(hints))
 
 
 def _matches(device: Device, word: str) -> tuple[list[Point], list[Command | SteppedCommand]]:

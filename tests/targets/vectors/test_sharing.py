@@ -74,7 +74,7 @@ def forgetting(monkeypatch: pytest.MonkeyPatch, owner: type, method: str, memory
 @pytest.mark.parametrize("device", ALL, ids=lambda device: device.id)
 def test_each_point_by_itself_has_the_same_vectors(device: Device, monkeypatch: pytest.MonkeyPatch) -> None:
     forgetting(monkeypatch, PointEncodings, "of", "_known")
-    forgetting(monkeypatch, SharedVectors, "beside_limits", "_beside_limits")
+    forgetting(monkeypatch, SharedVectors, "near_limits", "_near_limits")
     forgetting(monkeypatch, SharedVectors, "_convert", "_conversions")
     assert text_of(device) == SOUND[device.id]
 

@@ -95,12 +95,12 @@ def receive(line: LineAddress) -> Iterator[Chunk]:
         raise UnclearError(f"{line.scheme}://: {error}", "pip install 'fieldscribe[live]'") from error
     try:
         while True:
-            heard = bus.recv(SILENCE)
-            if heard is None:
+            received = bus.recv(SILENCE)
+            if received is None:
                 yield Chunk(None, SILENT, b"")
-            elif not heard.is_error_frame:
-                remote, identifier = heard.is_remote_frame, heard.arbitration_id
-                yield Chunk(time.time(), MESSAGE, bytes(heard.data), identifier=identifier, remote=remote)
+            elif not received.is_error_frame:
+                remote, identifier = received.is_remote_frame, received.arbitration_id
+                yield Chunk(time.time(), MESSAGE, bytes(received.data), identifier=identifier, remote=remote)
     except OSError as error:
         raise line.wrong(f"it went away: {error}") from error
     finally:

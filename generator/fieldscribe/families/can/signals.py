@@ -24,8 +24,8 @@ T = TypeVar("T")
 def placed(message: Message, points: Sequence[Point]) -> tuple[Message, list[Place]]:
     """Return the message with its fields, and the place of each of its points in the words of its telegram."""
     listed = {point.name: number for number, point in enumerate(points)}
-    own = {point.name: dict(selected(point, listed) or ()) for point in points}
-    whens = {name: _with_those_of_selectors(name, own) for name in own}
+    selections = {point.name: dict(selected(point, listed) or ()) for point in points}
+    whens = {name: _with_those_of_selectors(name, selections) for name in selections}
     order = sorted(points, key=lambda point: _rank(whens[point.name], listed))
     numbers = {point.name: number for number, point in enumerate(order)}
     fields: list[Field] = []
@@ -40,11 +40,11 @@ def placed(message: Message, points: Sequence[Point]) -> tuple[Message, list[Pla
     return replace(message, fields=tuple(fields)), [places[id(point)] for point in points]
 
 
-def _with_those_of_selectors(name: str, own: Mapping[str, Selection]) -> Selection:
+def _with_those_of_selectors(name: str, selections: Mapping[str, Selection]) -> Selection:
     """Return the selection of a signal, with the selections of its selectors."""
     result, open_names = dict[str, tuple[int, ...]](), [name]
-    while open_names and len(result) <= len(own):
-        for selector, raws in own.get(open_names.pop(), {}).items():
+    while open_names and len(result) <= len(selections):
+        for selector, raws in selections.get(open_names.pop(), {}).items():
             if selector not in result:
                 result[selector] = raws
                 open_names.append(selector)
@@ -72,11 +72,11 @@ def selected(point: Point, names: Collection[str]) -> tuple[tuple[str, tuple[int
     return tuple((name, tuple(sorted({raw for each in found if each for raw in each[name]}))) for name in first)
 
 
-def _raws(clause: Clause, own: str, names: Collection[str]) -> dict[str, tuple[int, ...]] | None:
+def _raws(clause: Clause, name: str, names: Collection[str]) -> dict[str, tuple[int, ...]] | None:
     """Return the raw numbers of other signals in a clause; None if it compares anything else."""
     raws: dict[str, tuple[int, ...]] = {}
     for comparison in clause:
-        if comparison.of in names and comparison.of != own:
+        if comparison.of in names and comparison.of != name:
             if comparison.test not in ("==", "in") or comparison.of in raws or len(comparison.than) > _MOST_RAWS:
                 return None
             raws[comparison.of] = tuple(map(int, comparison.than))

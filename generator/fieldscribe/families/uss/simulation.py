@@ -126,7 +126,7 @@ class _Unit:
         if not divided.fits:
             self.device.complain("length", f"a telegram has {len(words)} words, and the link is set otherwise")
             return None
-        self.device.heard()
+        self.device.end_silence()
         self._take_words(dict(enumerate(divided.words)), 0xFFFF)
         part = telegrams.part_of(divided.part)
         result = _Result(_NO_ANSWER, ())
@@ -145,7 +145,7 @@ class _Unit:
     def broadcast(self, words: tuple[int, ...]) -> Answer:
         """Take the process data that the masks select; nobody answers."""
         if len(words) == telegrams.MASKS + self.link(len(words), telegrams.MASKS).pzd:
-            self.device.heard()
+            self.device.end_silence()
             which, bits = words[:2]
             chosen = {at: word for at, word in enumerate(words[telegrams.MASKS :]) if which >> at + 1 & 1}
             if 0 in chosen:

@@ -318,7 +318,7 @@ def _parts(
 
 def _foldable(points: Iterable[DraftPoint], place: int) -> list[list[DraftPoint]]:
     """Return the points that differ only in one number of their titles, and in what may differ."""
-    alike: dict[object, list[DraftPoint]] = {}
+    by_facts: dict[object, list[DraftPoint]] = {}
     for point in points:
         if (
             point.facts["at"] == str(point.wire)
@@ -329,8 +329,8 @@ def _foldable(points: Iterable[DraftPoint], place: int) -> list[list[DraftPoint]
             titles = [_without(title, place) for title in (point.title, *point.titles.values())]
             present = [key in point.facts for key in _DIFFERENT]
             key = (*titles, *point.titles, *facts.items(), *present, *point.questions, *point.remarks)
-            alike.setdefault(key, []).append(point)
-    return [rows for rows in alike.values() if len(rows) >= _LEAST]
+            by_facts.setdefault(key, []).append(point)
+    return [rows for rows in by_facts.values() if len(rows) >= _LEAST]
 
 
 def _number(title: str, place: int) -> int:

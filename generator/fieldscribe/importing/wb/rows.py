@@ -243,8 +243,8 @@ class Row:
             self.point.facts["range"] = f"{ceil(first)}..{floor(last)}"
         stated = [number_of(self.item.get(key)) for key in ("min", "max")]
         if any(each not in (None, end) for each, end in zip(stated, (low, high), strict=True)):
-            said = " and ".join(f"{key} {self.item[key]}" for key in ("min", "max") if key in self.item)
-            self.point.remarks.append(f"the template has {said}, beyond what the type holds")
+            bounds = " and ".join(f"{key} {self.item[key]}" for key in ("min", "max") if key in self.item)
+            self.point.remarks.append(f"the template has {bounds}, beyond what the type holds")
 
     def _limits(self) -> list[Fraction] | None:
         """Return the least and the greatest value that the type can hold; None unless it is a whole number."""

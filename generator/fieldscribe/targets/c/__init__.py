@@ -62,11 +62,11 @@ def outputs(
     scope.calls_only = frames == "calls"
     exchanges = frames != "constants"
     points = generated_points(device, scope)
-    own, bus = header_context(device, points, scope), frames_of(device).header(device, points, scope)
-    context, sections = {"device": own, "bus": bus.context, "exchanges": exchanges}, bus.sections
+    device_context, bus = header_context(device, points, scope), frames_of(device).header(device, points, scope)
+    context, sections = {"device": device_context, "bus": bus.context, "exchanges": exchanges}, bus.sections
     if scope.calls_only:
         scope.left_out = lambda view: set[str]().union(*(section.left_out(view) for section in sections.values()))
-    yield f"c/{device.id}.h", header(device, own, points, scope, render)
+    yield f"c/{device.id}.h", header(device, device_context, points, scope, render)
     if not exchanges and not frames_of(device).has_facts:
         return
     texts = {name: section.text(render, scope if exchanges else None) for name, section in sections.items()}

@@ -115,11 +115,11 @@ def call_cases(
 
 
 class _Held(NamedTuple):
-    """What a program has for a text: its type and size, what is beside it when it is written, and the conversions."""
+    """What a program has for a text: its type and size, its length when it is written, and the conversions."""
 
     kind: str
     size: int
-    beside: str
+    length: str
     decoded: str
     encoded: str
 
@@ -163,7 +163,7 @@ def _text_calls(view: PointView, transfer: Transfer, scope: HeaderScope) -> Iter
         put = held.encoded if text.is_bytes else f"status = fieldscribe_{family}_converted({held.encoded})"
         body = called(f"{start}PUT_WORDS", transfer.write + count, put)
         given = f"const {held.kind} {name}[{held.size}]" if text.is_bytes else f"const {held.kind} *{name}"
-        parameters = [*handle, given, *[held.beside] * bool(held.beside)]
+        parameters = [*handle, given, *[held.length] * bool(held.length)]
         yield function(call, f"{scope.prefix}_write_{view.fields.item}", parameters, body)
 
 
@@ -181,12 +181,12 @@ def _text_cases(view: PointView, transfer: Transfer, scope: HeaderScope) -> Iter
     decoded = f"({'' if text.is_bytes else 'length = '}{held.decoded}, 0)"
     decoded = f"(int){held.decoded}" if text.is_unicode or text.parts else decoded
     base = f'FIELDSCRIBE_BASE("{transfer.base}") ' if transfer.base else ""
-    length = "FIELDSCRIBE_LENGTH" if held.beside else ""
+    length = "FIELDSCRIBE_LENGTH" if held.length else ""
     for way in ("read", "write"):
         if getattr(transfer, way):
             call = f"{scope.prefix}_device, {scope.prefix}_{way}_{item}, {held.kind}, {held.size or 1}"
-            beside = f"{length}, " if way == "write" else ""
-            yield f"CALL_{way.upper()}_TEXT({call}, {base}, {beside}{decoded})"
+            argument = f"{length}, " if way == "write" else ""
+            yield f"CALL_{way.upper()}_TEXT({call}, {base}, {argument}{decoded})"
 
 
 def _size(view: PointView, transfer: Transfer) -> str:

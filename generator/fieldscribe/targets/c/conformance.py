@@ -128,8 +128,8 @@ def _address_case(view: PointView) -> str:
         others.append(f"DECIMALS({macro})")
     for (key, number), literal in zip(point.references.items(), fields.references, strict=True):
         others.append(f'REFERENCE{"_TEXT" if isinstance(number, str) else ""}("{key}", {literal})')
-    beside = " ".join(f"FIELDSCRIBE_{other}" for other in others)
-    return f'ADDRESS({macro}, "{point.space}", {words}, {fields.code or "NULL"}, {beside})'
+    other_facts = " ".join(f"FIELDSCRIBE_{other}" for other in others)
+    return f'ADDRESS({macro}, "{point.space}", {words}, {fields.code or "NULL"}, {other_facts})'
 
 
 def _conversion_cases(view: PointView, scope: HeaderScope) -> Iterator[str]:

@@ -258,13 +258,13 @@ class Remarks:
     def of(self, point: Point) -> str:
         """Return the remarks of a point in one line."""
         values = zip(self._own, self._own_values(point), strict=True)
-        own = self._remarks([placed for placed, value in values if value or value == 0], point)
+        from_point = self._remarks([placed for placed, value in values if value or value == 0], point)
         key = id(point.shape), id(point.terms)
         known = self._known.get(key)
         if known is None:
             shared = self._remarks(self._shared, point)
             known = self._known[key] = shared, _joined(shared)
-        return _joined(sorted(own + known[0])) if own else known[1]
+        return _joined(sorted(from_point + known[0])) if from_point else known[1]
 
     def _remarks(self, facts: list[tuple[int, Fact]], point: Point) -> list[tuple[int, str]]:
         remarks = [(place, self._remark(fact, point)) for place, fact in facts]

@@ -140,9 +140,9 @@ class Points:
 
     def _own_rows(self, point: Point) -> list[Row]:
         values = zip(_OWN, _OWN_VALUES(point), strict=True)
-        said = [placed for placed, value in values if value or value == 0]
-        said += _OF_ADDRESSES if len(point.addresses) != 1 else []  # the row has one address already
-        return list(self._rows(said, point))
+        present = [placed for placed, value in values if value or value == 0]
+        present += _OF_ADDRESSES if len(point.addresses) != 1 else []  # the row has one address already
+        return list(self._rows(present, point))
 
     def _rows(self, facts: Iterable[tuple[int, Fact]], point: Point) -> Iterator[Row]:
         for place, fact in facts:

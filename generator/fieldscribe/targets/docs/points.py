@@ -154,8 +154,8 @@ class _Rows:
         names = (
             [_listed(enum, patterns=point.patterns)] if enum is not None and len(enum.entries) <= _SHORT_LIST else []
         )
-        own = [special for special in point.shape.specials if not special.shared]
-        names += [narrow(cell(wording.special_text(special, point.shape.width))) for special in own]
+        unshared = [special for special in point.shape.specials if not special.shared]
+        names += [narrow(cell(wording.special_text(special, point.shape.width))) for special in unshared]
         unit, type_text = cell(point.unit.symbol), wording.type_text(point)
         limits = _limits(point, self.scope.by_code)
         return _Cells(cell(point.space), type_text, point.access, unit, scale, LINE_BREAK.join(names), *limits)

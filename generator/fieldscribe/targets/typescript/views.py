@@ -111,10 +111,10 @@ class Points:
     def text(self, point: Point) -> str:
         """Return the constant of a point."""
         leaf = self.layout.leaf
-        own = calls.texts_of(
+        point_texts = calls.texts_of(
             point, calls.numbers_of(point, self.scope), calls.end_texts(point, leaf), (js_string, leaf)
         )
-        fields = (attribute(point.item), js_string(point.name), *own)
+        fields = (attribute(point.item), js_string(point.name), *point_texts)
         key = self._keys[id(point)], len(fields)
         return self._texts.fill(key, fields, lambda fields: self._laid_out(point, fields))
 
@@ -168,11 +168,11 @@ def type_of(point: Point, maker: str, scope: Scope) -> str:
     if written and point.writable:
         taken = f"{taken} | SpecialCode<{' | '.join(written)}>"
     facts = dict(_facts(point, numbers))
-    shown = value if point.readable else taken
-    if taken != shown and point.writable:
+    given = value if point.readable else taken
+    if taken != given and point.writable:
         facts["takes"] = taken
     listed = "; ".join(f"{key}: {fact}" for key, fact in facts.items())
-    return f"{maker}<{shown}, {{ {listed} }}>" if listed else f"{maker}<{shown}>"
+    return f"{maker}<{given}, {{ {listed} }}>" if listed else f"{maker}<{given}>"
 
 
 def _values(point: Point, numbers: str) -> tuple[str, str]:
@@ -269,8 +269,8 @@ def enums_context(names: Identifiers) -> dict[str, object]:
 
 def _named(name: str, title: str, entries: tuple[Entry, ...]) -> dict[str, object]:
     """Return names for numbers; each entry is its name, number and comment."""
-    shown = [(upper(entry.name), str(entry.raw), js_comment(calls.entry_text(entry))) for entry in entries]
-    return {"name": name, "comment": _sentence(title), "entries": shown}
+    members = [(upper(entry.name), str(entry.raw), js_comment(calls.entry_text(entry))) for entry in entries]
+    return {"name": name, "comment": _sentence(title), "entries": members}
 
 
 def _word(point: Point, names: Identifiers, layout: Layout) -> dict[str, object]:

@@ -44,7 +44,7 @@ class SharedVectors:
         self._lines, self._oracle, self._encodings = lines, oracle, encodings
         self._conversions: Memory = {}
         self._within_limits: dict[PointEncoding, Lines] = {}
-        self._beside_limits: dict[Hashable, Lines] = {}
+        self._near_limits: dict[Hashable, Lines] = {}
 
     def within_limits(self, encoding: PointEncoding) -> Lines:
         """Return conversions, checks and names; in depth for the first point that is computed in this way."""
@@ -71,12 +71,12 @@ class SharedVectors:
             displayed(lines, oracle, encoding, deep=deep)
         names(lines, shape, deep=deep)
 
-    def beside_limits(self, encoding: PointEncoding) -> Lines:
+    def near_limits(self, encoding: PointEncoding) -> Lines:
         """Return what does not depend on limits: special codes, flags, groups of bits, words."""
         key = id(encoding.shape), encoding.bits, encoding.order
-        part = self._beside_limits.get(key)
+        part = self._near_limits.get(key)
         if part is None:
-            part = self._beside_limits[key] = self._lines.part()
+            part = self._near_limits[key] = self._lines.part()
             specials(part, encoding.shape)
             flags(part, encoding.shape)
             fixed(part, encoding.shape)
@@ -112,7 +112,7 @@ def collect(device: Device) -> Lines:
         encoding = encodings.of(point)
         identity(lines, point, device.variants)
         lines.include(shared.within_limits(encoding))
-        lines.include(shared.beside_limits(encoding))
+        lines.include(shared.near_limits(encoding))
         for exchange in usual:
             exchange.of(point, encoding)
     for exchange in others:

@@ -88,10 +88,10 @@ def displayed(lines: Lines, oracle: Oracle, encoding: PointEncoding, *, deep: bo
             raws = _patterns(shape)
         else:
             raws = [0, 1] if isinstance(ratio, str) else _raws(encoding, ratio, deep=deep)
-        lines.add_answers("told", partial(_shown, encoding, ratio), raws)
+        lines.add_answers("told", partial(_decimals_text, encoding, ratio), raws)
 
 
-def _shown(encoding: PointEncoding, ratio: Ratio | str, raw: int) -> str:
+def _decimals_text(encoding: PointEncoding, ratio: Ratio | str, raw: int) -> str:
     """Return the status of a raw number and its text; a special code has its name."""
     shape, tens = encoding.shape, 10 ** (encoding.shape.display or 0)
     code, unit = code_of(shape, raw), f" {encoding.symbol}" if encoding.symbol else ""

@@ -88,12 +88,12 @@ class Wire(ABC):
                 wire.add_builds((request,), frame.name)
             wire.add_replies(request, answers, frame.name)
 
-    def example(self, frame: Frame, asked: "Example | None") -> "Example | None":
+    def example(self, frame: Frame, answered: "Example | None") -> "Example | None":
         """Return the request that a frame of the manual is or answers, and the answers that it is; None without one.
 
-        `asked` is the request that the frame says it answers.
+        `answered` is the request that the frame says it answers.
         """
-        del frame, asked
+        del frame, answered
         return None
 
 

@@ -243,10 +243,10 @@ class Lines:
         self.add_written(kind, [*map(self._rows[kind].line, rows)])
 
     def add_answers(
-        self, kind: str, answer: Callable[[Any], str], asked: Iterable[Any], written: Callable[[Any], str] = str
+        self, kind: str, answer: Callable[[Any], str], questions: Iterable[Any], written: Callable[[Any], str] = str
     ) -> None:
         """Add a vector of what is asked, each once, with its answer: `written` fields. None for an empty answer."""
-        fields = {written(each): each for each in asked}
+        fields = {written(each): each for each in questions}
         self.add_written(
             kind, [f"{kind}\t{text}\t{result}" for text, each in fields.items() if (result := answer(each))]
         )

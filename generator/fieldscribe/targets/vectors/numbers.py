@@ -35,7 +35,7 @@ _CODED = (0x1234_5678_9012_3456, 0x9999_9999_9999_9999, 0x0102_0304_8506_9708)
 _NARROW = (0x8000, 0x8001, 0xFFFD, 0x7FFE)
 """Samples of a signed word: the least number, negative odd numbers, a positive number."""
 
-Asked = tuple[str, Callable[[Any], str], Iterable[Any]]
+Questions = tuple[str, Callable[[Any], str], Iterable[Any]]
 """A kind of vector, the function that answers what is asked, and what is asked."""
 
 Memory = dict[tuple[int, Ratio], "Conversions"]
@@ -52,15 +52,15 @@ def numbers(lines: Lines, oracle: Oracle, encoding: PointEncoding, memory: Memor
         ratio = oracle.ratio(shape, settings) if shape.form == "scaled" else WHOLE
         limits = oracle.limits(shape, encoding.allowed, settings)
         if isinstance(ratio, str):
-            asked = _without_rule(shape, ratio)
+            questions = _without_rule(shape, ratio)
         elif isinstance(limits, str):
-            asked = _without_limits(encoding, ratio, limits)
+            questions = _without_limits(encoding, ratio, limits)
         else:
             if (key := (id(shape), ratio)) not in memory:
                 memory[key] = Conversions(shape, ratio)
-            asked = _Numbers(encoding, memory[key], limits).asked(deep=deep, full=full)
+            questions = _Numbers(encoding, memory[key], limits).questions(deep=deep, full=full)
             full = full and shape.form != "scaled"
-        for kind, answer, samples_of_kind in asked:
+        for kind, answer, samples_of_kind in questions:
             if kinds[kind]:
                 lines.add_answers(kind, answer, samples_of_kind, real if kind == "encode" else str)
     if shape.writable and shape.form == "scaled" and not shape.encodes_values:
@@ -79,15 +79,15 @@ def _kinds(shape: Shape) -> dict[str, bool]:
     }
 
 
-def _without_rule(shape: Shape, status: str) -> Iterator[Asked]:
+def _without_rule(shape: Shape, status: str) -> Iterator[Questions]:
     """Yield what is asked under a setting under which nothing can be computed."""
     raw = quantity_at_most(shape, 1)
-    for kind, asked in (("decode", raw), ("decode_count", raw), ("encode", 1.0), ("encode_count", 1)):
-        yield kind, lambda _: status, (asked,)
+    for kind, question in (("decode", raw), ("decode_count", raw), ("encode", 1.0), ("encode_count", 1)):
+        yield kind, lambda _: status, (question,)
     yield "encode", lambda _: "not_a_number", (nan,)
 
 
-def _without_limits(encoding: PointEncoding, ratio: Ratio, status: str) -> Iterator[Asked]:
+def _without_limits(encoding: PointEncoding, ratio: Ratio, status: str) -> Iterator[Questions]:
     """Yield what is asked under a setting under which only the limits cannot be computed.
 
     It is inside the outer bounds of the limit, so that only the limit itself can refuse it.
@@ -152,7 +152,7 @@ class _Numbers:
     def __init__(self, encoding: PointEncoding, by: Conversions, limits: samples.Limits) -> None:
         self.encoding, self.shape, self.by, self.ratio, self.limits = encoding, encoding.shape, by, by.ratio, limits
 
-    def asked(self, *, deep: bool, full: bool) -> Iterator[Asked]:
+    def questions(self, *, deep: bool, full: bool) -> Iterator[Questions]:
         """Yield what is asked; `full` for the first setting of the first encoding that is computed in this way."""
         encoding, shape, limits = self.encoding, self.shape, self.limits
         decoded = samples.raws_to_decode(encoding, limits, deep=deep)

@@ -116,15 +116,15 @@ def _codes(text: str, *, wide: bool) -> Iterator[int]:
             yield from (0x80 | number >> 6 * place & 0x3F for place in reversed(range(more)))
 
 
-def words_of_text(layout: Text, data: Sequence[int], beside: int | None = None) -> list[int]:
-    """Return the words of a text, padded; `beside` is the value of bytes outside the text, None for the written one."""
+def words_of_text(layout: Text, data: Sequence[int], outside: int | None = None) -> list[int]:
+    """Return the words of a text, padded; `outside` is the value of the bytes outside it, None for the written one."""
     codes = [*data, *[layout.padding] * (layout.characters - len(data))]
     if layout.encoding == "utf-16":
         pairs = [divmod(code, 0x100) for code in codes]
     elif layout.per_word == 1:
-        pairs = [(beside or 0, code) for code in codes]
+        pairs = [(outside or 0, code) for code in codes]
     else:
-        codes += [layout.padding if beside is None else beside]
+        codes += [layout.padding if outside is None else outside]
         pairs = list(zip(codes[::2], codes[1::2], strict=False))
     return [low << 8 | high if layout.low_first else high << 8 | low for high, low in pairs]
 
@@ -215,11 +215,11 @@ def _swapped(layout: Text, words: Sequence[int]) -> list[int]:
 
 def _with_other_bits(layout: Text, words: Sequence[int]) -> list[int]:
     """Return the words with ones in all bits outside the parts, and in those of the weekday."""
-    beside = [0xFFFF] * layout.words
+    outside = [0xFFFF] * layout.words
     for part in layout.parts:
         if part.name != "weekday":
-            beside[part.word] &= ~_mask(part)
-    return [word | other for word, other in zip(words, _swapped(layout, beside), strict=True)]
+            outside[part.word] &= ~_mask(part)
+    return [word | other for word, other in zip(words, _swapped(layout, outside), strict=True)]
 
 
 def _mask(part: DatePart) -> int:

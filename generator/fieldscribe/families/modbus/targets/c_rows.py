@@ -37,8 +37,8 @@ class IdentifyView:
     @cached_property
     def axes(self) -> dict[str, list[str]]:
         """The axes of variants that are told, with all their values."""
-        told = [row.variant.axis for row in self.device.identifications if row.variant is not None]
-        return {axis: list(self.device.variants[axis]) for axis in dict.fromkeys(told)}
+        identifying = [row.variant.axis for row in self.device.identifications if row.variant is not None]
+        return {axis: list(self.device.variants[axis]) for axis in dict.fromkeys(identifying)}
 
     @property
     def name(self) -> str:
@@ -109,11 +109,11 @@ def _read_of(point: Point) -> str:
 
 def identifies(device: Device) -> bool:
     """Return True if requests alone tell the device: all points that do are read by one each, in their order."""
-    told = {row.point for row in device.identifications}
-    points, most = [point for point in device.points if point.name in told], profile_of(device.bus).most
+    identifying = {row.point for row in device.identifications}
+    points, most = [point for point in device.points if point.name in identifying], profile_of(device.bus).most
     few = len(device.variants) < _MOST and all(len(values) <= _MOST for values in device.variants.values())
     are_read = all(_is_plain(point) and most.get(SPACES[point.space].read, 0) >= point.words for point in points)
-    return bool(told) and few and are_read and len({point.base for point in points}) == 1
+    return bool(identifying) and few and are_read and len({point.base for point in points}) == 1
 
 
 def _is_plain(point: Point) -> bool:

@@ -167,11 +167,11 @@ class ModbusWire(Wire):
             errors = single_bit_errors(self.frame(request, _good_pdu(request))) if function == functions[0] else ()
             self.add_replies(request, (*pdus, *self._bad_frames(request), *errors))
 
-    def example(self, frame: Frame, asked: Example | None) -> Example | None:
+    def example(self, frame: Frame, answered: Example | None) -> Example | None:
         """Return the request that a printed frame is or answers, and the answers that it is."""
         wire, answers = ModbusWire(self.lines, self.device, frame.framing), (frame.printed, frame.corrected)
         if frame.direction != "request":
-            return None if asked is None else (wire, asked[1], answers)
+            return None if answered is None else (wire, answered[1], answers)
         request = parse_request(frame.framing, frame.corrected)
         if isinstance(request, Flaw):
             return None

@@ -196,7 +196,7 @@ class UssWire(Wire):
         request = Request(unit, 0 if self.link.pkw == 0 else 1, 1082, 0)
         self.add_replies(request, self._spoiled(request, 1 if self.link.pkw == SHORT else 2))
 
-    def example(self, frame: Frame, asked: Example | None) -> Example | None:
+    def example(self, frame: Frame, answered: Example | None) -> Example | None:
         """Return the request that a printed part is or answers, and the telegram that answers it."""
         words, (least, _) = words_in(frame.corrected), of_bus(self.bus).pzd
         if frame.framing == "pzd":
@@ -206,7 +206,9 @@ class UssWire(Wire):
         if frame.framing != "pkw":
             return None
         if frame.direction != "request":
-            return None if asked is None else (*asked[:2], (telegram(asked[1].unit, (*words, *asked[1].words)),))
+            if answered is None:
+                return None
+            return *answered[:2], (telegram(answered[1].unit, (*words, *answered[1].words)),)
         wire, part = self.over(least, of_frame(frame).pkw or VARIABLE), part_of(words)
         return None if part is None else (wire, request_in(wire.unit, part, wire.link, wire.words), ())
 
