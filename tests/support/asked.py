@@ -13,5 +13,5 @@ def asked(**given: Any) -> Options:
     """Return options; those that only some families know go into `own`."""
     shared = {name: value for name, value in given.items() if name in _SHARED}
     return Options(
-        **shared, own={name: given[name] for name in given if name not in _SHARED and given[name] is not None}
+        **shared, of_family={name: given[name] for name in given if name not in _SHARED and given[name] is not None}
     )

@@ -75,10 +75,10 @@ def options_of(device: Device, arguments: Namespace) -> Options:
     shared = {name: getattr(arguments, name, None) for name in ("framing", "unit", "request", "index")}
     names = [option.name for bus_family in families() for option in bus_family.options]
     values = {name: getattr(arguments, name, None) for name in names}
-    own = {name: value for name, value in values.items() if value is not None and value is not False}  # 0 is a value
-    options = Options(**shared, own=own)
+    others = {name: value for name, value in values.items() if value is not None and value is not False}  # 0 is a value
+    options = Options(**shared, of_family=others)
     given = [name for name in ("framing", "index") if getattr(options, name) is not None]
-    for name in (*given, *options.own):
+    for name in (*given, *options.of_family):
         takers = [bus_family.name for bus_family in families() if name in _names(bus_family)]
         if device.family not in takers:
             flag = f"--{name.replace('_', '-')}"

@@ -137,11 +137,11 @@ def _station(arguments: Namespace, text: str, project: Project) -> Station:
             raise StopError(f"`{shortened(text)}`: a unit is a number up to 255", "as in hitachi_l200=1")
         known = NamedStation(name if equals else text, None, int(unit) if equals else None)
     arguments.line = arguments.line or (None if arguments.capture else known.line)
-    own = Namespace(**vars(arguments))
-    own.device = known.description
-    own.variant, own.settings = [*arguments.variant, *known.variants], [*arguments.settings, *known.settings]
-    device = placed(open_device(own), own)
-    return Station(device, known.unit, settings_of(device, own))
+    chosen = Namespace(**vars(arguments))
+    chosen.device = known.description
+    chosen.variant, chosen.settings = [*arguments.variant, *known.variants], [*arguments.settings, *known.settings]
+    device = placed(open_device(chosen), chosen)
+    return Station(device, known.unit, settings_of(device, chosen))
 
 
 def _require_one_each(stations: list[Station]) -> None:

@@ -307,15 +307,15 @@ def _named(numbers: tuple[int, ...], names: Mapping[int, str]) -> str:
 
 def _messages(device: Device, text: str, forced: str) -> Iterator[OtherItem]:
     """Return messages with this name, or with this identifier after the name of the family."""
-    own = family(device.family)
-    number = _identifier(text) if own.lays_out_messages and forced == own.name else None
+    protocol = family(device.family)
+    number = _identifier(text) if protocol.lays_out_messages and forced == protocol.name else None
     for message in device.messages:
         if forced in ("", "name") and text.lower() == message.name:
             yield f"message {message.name}", *_message(device, message)
         low, high = device.bus.units if message.adds_unit else (0, 0)
         if number is not None and message.identifier + low <= number <= message.identifier + high:
             unit = f" of unit {number - message.identifier}" if message.adds_unit else ""
-            yield f"{own.name.upper()} identifier {hex_text(number, 3)}{unit}", *_message(device, message)
+            yield f"{protocol.name.upper()} identifier {hex_text(number, 3)}{unit}", *_message(device, message)
 
 
 def _identifier(text: str) -> int | None:

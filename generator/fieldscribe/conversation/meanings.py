@@ -42,7 +42,7 @@ class Meaning(NamedTuple):
     flags: FlagTexts | None = None
 
 
-Meant = Callable[[int], Meaning]
+MeaningOf = Callable[[int], Meaning]
 """Returns the meaning of a raw number of a point, under some settings of other points."""
 
 
@@ -61,7 +61,7 @@ class Meanings:
         """Return the meaning of a raw number under these settings of other points."""
         return self.under(settings)(raw)
 
-    def under(self, settings: Settings) -> Meant:
+    def under(self, settings: Settings) -> MeaningOf:
         """Return the function that gives the meanings under these settings."""
         return self._under(*map(settings.get, self._names))
 
@@ -70,24 +70,24 @@ class Meanings:
         meaning = self.of(raw, settings)
         return meaning.text if meaning.flags is None else meaning.flags.sentence(raw)
 
-    def _made_under(self, *values: int | Fraction | None) -> Meant:
+    def _made_under(self, *values: int | Fraction | None) -> MeaningOf:
         settings = {name: value for name, value in zip(self._names, values, strict=True) if value is not None}
-        meant = self._named or partial(self._quantity, settings)
+        meaning_of = self._named or partial(self._quantity, settings)
         if self._is_exact and self._named is None:
             try:
-                meant = self._exact_quantity(*codec.rule_in_force(self._point, settings))
+                meaning_of = self._exact_quantity(*codec.rule_in_force(self._point, settings))
             except CodecError as error:
-                meant = _always(self._unknown(error))
-        return partial(self._special_or, meant) if self._point.specials else meant
+                meaning_of = _always(self._unknown(error))
+        return partial(self._special_or, meaning_of) if self._point.specials else meaning_of
 
-    def _special_or(self, meant: Meant, raw: int) -> Meaning:
+    def _special_or(self, meaning_of: MeaningOf, raw: int) -> Meaning:
         special = self._point.special(raw)
         if special is None:
-            return meant(raw)
+            return meaning_of(raw)
         remark = ", no value" if special.no_value else ""
         return Meaning(line(f"{special.name} ({wording.title_text(special.title)}){remark}"))
 
-    def _exact_quantity(self, ratio: Fraction, offset: Fraction) -> Meant:
+    def _exact_quantity(self, ratio: Fraction, offset: Fraction) -> MeaningOf:
         """Return a function that does what `_quantity` does, with the rule worked out in integers."""
         display, unit = self._point.display, f" {symbol}" if (symbol := line(self._point.unit.symbol)) else ""
         rule = (offset.denominator * ratio.denominator, -offset.numerator * ratio.denominator)
@@ -96,7 +96,7 @@ class Meanings:
         if places is not None:
             multiply, add, divide = multiply * 10**places // divide, add * 10**places // divide, 10**places
 
-        def meant(raw: int) -> Meaning:
+        def meaning_of(raw: int) -> Meaning:
             number = raw * multiply + add
             value = exact(number, divide) if places is None else shortest(number, places)
             if display is not None:
@@ -105,7 +105,7 @@ class Meanings:
                 text = value if is_short(value) else amount(Fraction(number, divide))
             return Meaning(text + unit, value)
 
-        return meant
+        return meaning_of
 
     def _unknown(self, error: CodecError) -> Meaning:
         message, hint = failure(self._device, self._point, error)
@@ -126,11 +126,11 @@ class Meanings:
         return Meaning(line(wording.with_unit(text, point)), number_text(value))
 
 
-def _always(meaning: Meaning) -> Meant:
+def _always(meaning: Meaning) -> MeaningOf:
     return lambda _raw: meaning
 
 
-def _naming(point: Point) -> Meant | None:
+def _naming(point: Point) -> MeaningOf | None:
     """Return the function that names the raw numbers of a point; None if they are quantities."""
     if (layout := point.text) is not None:
         return partial(_text_meaning, layout)

@@ -52,9 +52,9 @@ class PointFormatter:
         """Returns where the numbers come that are missing."""
         self.absent = absence(device, point) if written else ""
         self.meanings = Meanings(device, point)
-        meant = self.meanings.under(_NO_SETTINGS)
+        meaning_of = self.meanings.under(_NO_SETTINGS)
         most = 1 << point.width if point.width <= _FEW_BITS else 1
-        self._kept = lru_cache(most)(lambda raw: PointItem(self, raw, meant(raw), _NO_SETTINGS))
+        self._kept = lru_cache(most)(lambda raw: PointItem(self, raw, meaning_of(raw), _NO_SETTINGS))
         """Returns an item that needs no numbers of other points: the last one is kept, or all of few bits."""
 
     def item(self, raw: int, settings: Settings) -> PointItem:

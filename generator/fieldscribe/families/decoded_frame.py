@@ -167,7 +167,7 @@ class CutFrame(bytes):
     note = ""
 
 
-def cut_apart(data: bytes, sound_size: Callable[[bytes], int], least: int) -> list[bytes]:
+def split_frames(data: bytes, sound_size: Callable[[bytes], int], least: int) -> list[bytes]:
     """Cut bytes into the frames that they hold; return them whole if they hold one frame, or none.
 
     `sound_size` returns the size of the sound frame at the beginning of its argument, 0 if there is none. What remains

@@ -15,13 +15,13 @@ from fieldscribe.wording.numbers import units_text
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """The options for frames, None if not given; `own` has those of single families, by name."""
+    """The options for frames, None if not given; `of_family` has those of single families, by name."""
 
     framing: str | None = None
     unit: int | None = None
     request: str | None = None
     index: int | None = None
-    own: Mapping[str, Any] = field(default_factory=lambda: MappingProxyType({}))
+    of_family: Mapping[str, Any] = field(default_factory=lambda: MappingProxyType({}))
 
 
 @dataclass(frozen=True, slots=True)

@@ -89,11 +89,11 @@ def bus_chunks(stream: BufferedReader) -> Iterator[Chunk]:
     size = _size(stream)
     try:
         reader: Any = BLFReader(stream) if is_blf else _asc(stream)
-        for heard in reader:
-            if not heard.is_error_frame:
-                place = "" if heard.channel is None else f"can{heard.channel}"
-                remote, identifier = heard.is_remote_frame, heard.arbitration_id
-                yield Chunk(heard.timestamp, MESSAGE, bytes(heard.data), place, identifier=identifier, remote=remote)
+        for frame in reader:
+            if not frame.is_error_frame:
+                place = "" if frame.channel is None else f"can{frame.channel}"
+                remote, identifier = frame.is_remote_frame, frame.arbitration_id
+                yield Chunk(frame.timestamp, MESSAGE, bytes(frame.data), place, identifier=identifier, remote=remote)
     except Exception as error:  # the readers raise any exception for a damaged file
         raise UnclearError(f"it is no whole {'BLF' if is_blf else 'ASC'} file: {error}") from error
     if size is not None and is_blf and reader.file_size > size:  # its reader just stops there

@@ -218,14 +218,14 @@ class Statistics:
                 _count(self._errors, (unit, fault))
             for key, text in content.findings.items():
                 _count(self._findings, (unit, key), text)
-        asked = content.request or (None if exchange.faults else content.reply)
-        if asked is not None and content.device is not None:
-            place: tuple[str, int | None, str] = exchange.place, content.unit, asked.summary
+        polled = content.request or (None if exchange.faults else content.reply)
+        if polled is not None and content.device is not None:
+            place: tuple[str, int | None, str] = exchange.place, content.unit, polled.summary
             if place not in self._polls:
                 full = len(self._polls) >= _MOST_ROWS
                 place = _REST if full else place
                 who, what = (exchange.place, content.unit, content.device.id), _what(exchange)
-                new = Poll(*who, content.action, what, asked.summary)
+                new = Poll(*who, content.action, what, polled.summary)
                 self._polls.setdefault(place, Poll() if full else new)
             self._polls[place].add(exchange)
 
@@ -243,8 +243,8 @@ class Statistics:
         yield counted(self.exchanges, "exchange")
         if self._polls:
             yield from ("", "who asks for what, how often, and how fast it is answered:")
-            alike = Counter(poll.subject for poll in self._polls.values())
-            rows = [poll.row(in_full=alike[poll.subject] > 1) for poll in self._sorted_polls()]
+            subjects = Counter(poll.subject for poll in self._polls.values())
+            rows = [poll.row(in_full=subjects[poll.subject] > 1) for poll in self._sorted_polls()]
             widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
             for row in rows:
                 cells = [f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True) if width]

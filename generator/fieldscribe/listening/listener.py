@@ -144,7 +144,7 @@ class Listener:
     def _decoder(self, station: Station, framing: str | None) -> StreamDecoder:
         key = id(station), framing
         if key not in self._decoders:
-            options = Options(framing or self._options.framing, own=self._options.own)
+            options = Options(framing or self._options.framing, of_family=self._options.of_family)
             self._decoders[key] = StreamDecoder(
                 station.device, station.settings, frame_decoder(station.device, options), doubting=True
             )

@@ -23,7 +23,7 @@ def frames_for(device: Device, point: Point, raw: int, settings: Settings, optio
     if point.place.bit is not None and point.writable:
         frame = signal_frame(device, point, raw, options.unit)
         return BuiltFrames((frame,), ("all other bits of the message are 0: its other signals travel with it",))
-    word_text: str | None = options.own.get("with_word")
+    word_text: str | None = options.of_family.get("with_word")
     if point.bits is None:
         if word_text is not None:
             raise UnclearError(f"{label(point)} takes its whole word", "--with-word is for bit groups")

@@ -165,10 +165,10 @@ class CanFrameDecoder:
         if kept and not numbers and kept[0] == frame.data:
             return kept[1]
         piece = Piece(layout, receiver.keep(head.slot, frame))
-        told = (frame.data, *map(receiver.words, numbers)) if numbers else frame.data
-        if kept and kept[0] == told:
+        key = (frame.data, *map(receiver.words, numbers)) if numbers else frame.data
+        if kept and kept[0] == key:
             return kept[1]
-        return _keep(self._last, layout, (told, DecodedFrame(result, (piece,), head.unit, memo=[])))[1]
+        return _keep(self._last, layout, (key, DecodedFrame(result, (piece,), head.unit, memo=[])))[1]
 
     def _receive(self, name: str, unit: int) -> tuple[Receiver, list[Layout], dict[int, list[tuple[int, ...]]]]:
         """Return the receiver of a message of a unit, and the layout of the frames with each multiplexer.
@@ -253,7 +253,7 @@ def _keep(kept: dict[Hashable, T], key: Hashable, value: T) -> T:
 
 def decoder_of(device: Device, options: Options) -> CanFrameDecoder:
     """Return the decoder for the frames of the device."""
-    return CanFrameDecoder(device, options.own.get("can_id"))
+    return CanFrameDecoder(device, options.of_family.get("can_id"))
 
 
 def _senders(device: Device, frame: CanFrame) -> Iterator[tuple[Message, int | None]]:

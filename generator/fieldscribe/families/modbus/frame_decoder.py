@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 
-from fieldscribe.families.decoded_frame import AddressSpan, DecodedFrame, OpenRequests, cut_apart
+from fieldscribe.families.decoded_frame import AddressSpan, DecodedFrame, OpenRequests, split_frames
 from fieldscribe.families.frame_results import FrameResult, Item, Options
 from fieldscribe.families.modbus import FRAMINGS, FUNCTIONS, READS, SINGLE, framings_of, remarks
 from fieldscribe.families.modbus.frames import (
@@ -128,9 +128,9 @@ def frames_in(data: bytes, forced: str | None = None) -> list[bytes]:
     framings = (forced,) if forced else FRAMINGS
     if any(unwrap(framing, data).flaw is None for framing in framings):
         return [data]
-    cut = cut_apart(data, _sound_rtu, LEAST["rtu"]) if "rtu" in framings else [data]
+    cut = split_frames(data, _sound_rtu, LEAST["rtu"]) if "rtu" in framings else [data]
     if len(cut) == 1 and "tcp" in framings:
-        cut = cut_apart(data, _sound_tcp, LEAST["tcp"])
+        cut = split_frames(data, _sound_tcp, LEAST["tcp"])
         cut = cut if all(unwrap("tcp", frame).flaw is None for frame in cut) else [data]
     return cut
 

@@ -28,7 +28,7 @@ def frames_for(device: Device, point: Point, raw: int, settings: Settings, optio
     framing = options.framing or "uss"
     if framing == "broadcast":
         raise UnclearError("a broadcast is not built here", "take uss, pkw or pzd")
-    link, keep = link_of(device, options), options.own.get("keep", False)
+    link, keep = link_of(device, options), options.of_family.get("keep", False)
     unit = device.bus.usual_unit if options.unit is None else options.unit
     notes: list[str] = []
     if point.telegram is not None:

@@ -167,7 +167,7 @@ class UssFrameDecoder:
 def decoder_of(device: Device, options: Options) -> UssFrameDecoder:
     """Return the decoder for the telegrams of the device. Raises UnclearError."""
     return UssFrameDecoder(
-        device, telegrams.link_of(device, options), options.framing or "uss", options.own.get("direction")
+        device, telegrams.link_of(device, options), options.framing or "uss", options.of_family.get("direction")
     )
 
 

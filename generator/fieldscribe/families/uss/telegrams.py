@@ -11,7 +11,7 @@ from operator import xor
 
 from fieldscribe.arithmetic.words import words_in
 from fieldscribe.diagnostics import UnclearError
-from fieldscribe.families.decoded_frame import cut_apart
+from fieldscribe.families.decoded_frame import split_frames
 from fieldscribe.families.frame_results import Options
 from fieldscribe.families.uss import FAMILY, of_bus
 from fieldscribe.model import Bus, Device
@@ -81,13 +81,13 @@ def default_link(bus: Bus) -> Link:
 def link_of(device: Device, options: Options) -> Link:
     """Return the link that the options choose. Raises UnclearError."""
     usual, lengths, (low, high) = default_link(device.bus), of_bus(device.bus).pkw, of_bus(device.bus).pzd
-    pkw, pzd = options.own.get("pkw", usual.pkw), options.own.get("pzd", usual.pzd)
-    if "pkw" in options.own and pkw not in lengths:
+    pkw, pzd = options.of_family.get("pkw", usual.pkw), options.of_family.get("pzd", usual.pzd)
+    if "pkw" in options.of_family and pkw not in lengths:
         message = f"--pkw {pkw}: {device.id} knows no parameter part of this length"
         raise UnclearError(message, f"it has {', '.join(map(str, lengths))}")
     if not low <= pzd <= high:
         raise UnclearError(f"--pzd {pzd}: {device.id} has {low} to {high} words of process data")
-    return Link(pkw, pzd, options.own.get("single_first", False))
+    return Link(pkw, pzd, options.of_family.get("single_first", False))
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,7 +188,7 @@ def unwrap(data: bytes) -> Unwrapped:
 
 def frames_in(data: bytes) -> list[bytes]:
     """Return the telegrams in pasted bytes: several if whole ones follow each other, by length and check byte."""
-    return cut_apart(data, sound_size, LEAST_BYTES) if unwrap(data).flaws else [data]
+    return split_frames(data, sound_size, LEAST_BYTES) if unwrap(data).flaws else [data]
 
 
 def sound_size(data: bytes) -> int:

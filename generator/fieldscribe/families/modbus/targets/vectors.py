@@ -39,26 +39,26 @@ def wires(lines: Lines, device: Device) -> list[ModbusWire]:
 
 def frames(lines: Lines, device: Device) -> None:
     """Add all vectors of Modbus frames."""
-    own = wires(lines, device)
-    own[0].add_codes("code", "exception", device.bus.exceptions)
-    for wire in own:
+    described = wires(lines, device)
+    described[0].add_codes("code", "exception", device.bus.exceptions)
+    for wire in described:
         wire.opens()
         for command in device.commands:
             value = 1 if command.value is None else command.value
             script = wire.script(command.function, (command.address,), (value,))
             if script is not None:
                 lines.add("command", command.name, value, script, "ok")
-    own[0].opens()
-    BaseVectors(own[0]).add()
-    spoken = [wire for wire in own if wire.framing in device.bus.framings]
+    described[0].opens()
+    BaseVectors(described[0]).add()
+    spoken = [wire for wire in described if wire.framing in device.bus.framings]
     for wire in spoken:
         wire.add_builds(wire.requests())
-    for framing in [framing for framing in FRAMINGS if framing not in own[0].profile.framings]:
+    for framing in [framing for framing in FRAMINGS if framing not in described[0].profile.framings]:
         foreign = ModbusWire(lines, device, framing)
         foreign.add_builds(itertools.islice(foreign.requests(), 1))
     for wire in spoken:
         wire.add_all_replies()
-    own[0].add_examples()
+    described[0].add_examples()
     for stepped in device.stepped_commands:
         _steps(lines, stepped)
     for group, block in [(group, block) for group, blocks in device.blocks.items() for block in blocks]:

@@ -14,9 +14,9 @@ _STORED = {"ReadWrite": "Stored", "WriteOnly": "StoredWriteOnly"}
 
 def _profile(device: Device, scope: Scope) -> Node:
     """Return the profile: the tasks and telegrams that the device accepts."""
-    bus, own = device.bus, of_bus(device.bus)
-    low, high = own.pzd
-    facts: dict[str, Node] = {"units": bus.units, "pkw": own.pkw, "pzd": own.pzd}
+    bus, uss = device.bus, of_bus(device.bus)
+    low, high = uss.pzd
+    facts: dict[str, Node] = {"units": bus.units, "pkw": uss.pkw, "pzd": uss.pzd}
     facts["tasks"] = {code.number: code.answers for code in bus.functions}
     if bus.broadcast is not None:
         facts["broadcast"] = bus.broadcast
@@ -25,7 +25,7 @@ def _profile(device: Device, scope: Scope) -> Node:
     if device.telegrams:
         facts["telegrams"] = telegrams(device.telegrams, scope)
     fewer = {
-        (variant.axis, variant.value): (low, most) for variant, most in dict(own.variant_pzd).items() if most < high
+        (variant.axis, variant.value): (low, most) for variant, most in dict(uss.variant_pzd).items() if most < high
     }
     if fewer:
         facts["variant_pzd"] = fewer
