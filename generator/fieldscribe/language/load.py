@@ -187,15 +187,14 @@ class _Reader:
             self.next_event()  # the end of the document
             self.anchors.clear()
         if not filled:
-            hint = "a description starts with `fieldscribe: 1` and `device: …`"
-            self._refuse("file-empty", "the file holds only comments", event, hint)
+            self._refuse("file-empty", "the file holds only comments", event, self.source.beginning)
 
     def _document(self, event: Any) -> Map | None:
         root = self._value(event, 0)
         if isinstance(root, Map):
             return root
-        hint = "a description starts with `fieldscribe: 1` and `device: …`, a part with `group: …` or shared facts"
-        self._error("wrong-type", "a document must be a mapping of keys to values", event, hint)
+        message = "a document must be a mapping of keys to values"
+        self._error("wrong-type", message, event, self.source.beginning)
         return None
 
     def _value(self, event: Any, depth: int) -> Value:

@@ -47,15 +47,21 @@ class Positions(NamedTuple):
     items: dict[int, list[Place]]
 
 
+BEGINNING = "a description starts with `fieldscribe: 1` and `device: …`, a part with `group: …` or shared facts"
+"""How a description and its parts begin."""
+
+
 @dataclass(eq=False)
 class SourceFile:
     """A file's text; `name` is its path as messages show it, relative to the working folder if it lies below that.
 
-    `lost` collects the names in dropped values: a reference to one of them is not reported as unknown.
+    `beginning` is the hint that says how such a file begins. `lost` collects the names in dropped values: a reference
+    to one of them is not reported as unknown.
     """
 
     name: str
     text: str
+    beginning: str = BEGINNING
     lost: set[str] = field(default_factory=set)
 
     def span(self, line: int, column: int, width: int = 1) -> Span:
@@ -82,10 +88,12 @@ class SourceFile:
         return line, offset - self._line_starts[line - 1] + 1
 
 
-def read_source(path: Path, report: Report, inputs: Inputs | None = None) -> SourceFile | None:
+def read_source(
+    path: Path, report: Report, inputs: Inputs | None = None, beginning: str = BEGINNING
+) -> SourceFile | None:
     """Return the text of a file; None, with a finding, if it cannot be read or is no text that YAML allows.
 
-    `inputs` records the bytes that were read.
+    `inputs` records the bytes that were read; `beginning` says how such a file begins.
     """
     name = path_text(path)
     content = _content(path, Span(name, 1, 1), report)
@@ -93,7 +101,7 @@ def read_source(path: Path, report: Report, inputs: Inputs | None = None) -> Sou
         return None
     if inputs is not None:
         inputs.note(path, content)
-    return decoded(name, content.data, report)
+    return decoded(name, content.data, report, beginning)
 
 
 def _content(path: Path, start: Span, report: Report) -> Content | None:
@@ -112,10 +120,10 @@ def _content(path: Path, start: Span, report: Report) -> Content | None:
     return None
 
 
-def decoded(name: str, data: bytes, report: Report) -> SourceFile | None:
+def decoded(name: str, data: bytes, report: Report, beginning: str = BEGINNING) -> SourceFile | None:
     """Return the text of these bytes, or None and a finding."""
     try:
-        source = SourceFile(name, data.decode("utf-8-sig"))
+        source = SourceFile(name, data.decode("utf-8-sig"), beginning)
     except UnicodeDecodeError as error:
         before = SourceFile(name, data[: error.start].decode("utf-8-sig"))
         message = f"byte {data[error.start]:02X}h is not UTF-8"
@@ -123,8 +131,7 @@ def decoded(name: str, data: bytes, report: Report) -> SourceFile | None:
         return None
     text = source.text
     if not text.strip():
-        hint = "a description starts with `fieldscribe: 1` and `device: …`"
-        report.error("file-empty", "the file is empty", Span(name, 1, 1), hint)
+        report.error("file-empty", "the file is empty", Span(name, 1, 1), beginning)
         return None
     strange = None if text.replace("\n", "").isprintable() else re.search(_FORBIDDEN, text)
     if strange is None:

@@ -36,6 +36,7 @@ from fieldscribe.resolve.values import FactError, formula_finding, number
 from fieldscribe.simulation.behaviour_rules import TIME, Amount, Quantity, Ref, Rule, Rules, Step, Test
 
 FILE = "behaviour.yaml"
+_BEGINNING = "a behaviour starts with `behaviour: DEVICE`, and its rules stand under `moves`"
 _SECONDS = {"ms": Fraction(1, 1000), "s": Fraction(1), "min": Fraction(60), "h": Fraction(3600)}
 _NO_NUMBER = "use a quantity under `plant` instead"
 
@@ -48,7 +49,7 @@ def read_behaviour(device_file: Path, device: Device, report: Report) -> Rules |
     findings, path = Report(), device_file.parent / FILE
     if not os.path.lexists(path):
         return None
-    source = read_source(path, findings)
+    source = read_source(path, findings, beginning=_BEGINNING)
     documents = [] if source is None else load(source, findings)
     rules = None
     if documents and documents[0] is not None:

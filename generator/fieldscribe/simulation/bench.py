@@ -85,8 +85,6 @@ _Kinds = Mapping[str, tuple[tuple[type, ...], str]]
 MOST_DEVICES = 10_000
 _LONGEST = 1e8
 _FIRST_LINES = "write `lines:`, below it `- tcp: 5020` and its `devices`"
-_OF_DESCRIPTIONS = frozenset({"file-empty", "wrong-type"})
-"""Findings whose hint says how a description begins."""
 _BITS = 11
 """The bits of a character on a serial line, with start, parity and stop bits."""
 
@@ -106,11 +104,11 @@ _DEVICE: _Kinds = {**_WHICH, "values": _MAP, "unmet": _LIST, "refusals": _MAP}
 def read_bench(file: Path) -> Settings:
     """Return the mapping of a bench file. Raises UnclearError."""
     report = Report()
-    source = read_source(file, report)
+    source = read_source(file, report, beginning=_FIRST_LINES)
     documents = [] if source is None else load(source, report)
     if report.has_errors:
         first = report.findings[0]
-        raise _at(first.span, first.message, _FIRST_LINES if first.rule in _OF_DESCRIPTIONS else first.hint or "")
+        raise _at(first.span, first.message, first.hint or "")
     if len(documents) != 1 or documents[0] is None:
         raise UnclearError(f"{file}:1:1: a bench file is one mapping with `lines`", "")
     return documents[0]
