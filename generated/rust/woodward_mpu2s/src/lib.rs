@@ -66,9 +66,9 @@
 //! fn hear(client: &mut Client<Line, Receiver<telegrams::Visualisation>>) -> Result<(), ClientError<std::io::Error>> {
 //!     let value = client.receive::<p::GeneratorFrequency>()?; // waits for its next frame
 //!     println!("it is {value:?}");
-//!     let received = client.listener(); // what came so far
-//!     let with = with::GeneratorActivePower { generator_power_exponent: received.raw::<p::GeneratorPowerExponent>()? };
-//!     println!("it is {:?}", received.value_with::<p::GeneratorActivePower>(with)?);
+//!     let last = client.listener(); // what came so far
+//!     let with = with::GeneratorActivePower { generator_power_exponent: last.raw::<p::GeneratorPowerExponent>()? };
+//!     println!("it is {:?}", last.value_with::<p::GeneratorActivePower>(with)?);
 //!     Ok(())
 //! }
 //!

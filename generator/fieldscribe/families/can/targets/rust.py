@@ -159,11 +159,11 @@ def telegram_of(scope: CrateScope) -> tuple[str, Snippet]:
     needy = (item for item in come if needs[item] and come[item].point.telegram == first.point.telegram)
     for subject in (come[item] for item in needy if come.keys() >= {*needs[item]}):
         factors = needs[subject.item]
-        fields = ", ".join(f"{value_name(name)}: received.raw::<p::{come[name].name}>()?" for name in factors)
-        lines += ["let received = client.listener(); // what came so far"]
+        fields = ", ".join(f"{value_name(name)}: last.raw::<p::{come[name].name}>()?" for name in factors)
+        lines += ["let last = client.listener(); // what came so far"]
         lines += [f"let with = with::{subject.factors_struct} {{ {fields} }};"]
         names.append("with")
-        lines += [f'println!("it is {{:?}}", received.value_with::<p::{subject.name}>(with)?);']
+        lines += [f'println!("it is {{:?}}", last.value_with::<p::{subject.name}>(with)?);']
         break
     return f"telegrams::{type_name(first.point.telegram or '')}", Snippet(tuple(lines), frozenset(names))
 
