@@ -173,20 +173,27 @@ def test_a_trace_can_be_thrown_away(capsys: pytest.CaptureFixture[str]) -> None:
 @pytest.mark.parametrize(
     ("commands", "last"),
     [
-        ("set A020=60\n" * 20_000 + "set A020=40\nget A020\n", "1 A020 = 40"),
+        (f"set A020=60{' ' * 1000}\n" * 200 + "set A020=40\nget A020\nquit\n", "1 A020 = 40"),
         ("get A020\nquit\nget F002\n", "1 A020 = 50"),
-        ("x" * 300_000 + "\nget A020\n", "1 A020 = 50"),
+        ("x" * 300_000 + "\nget A020\nquit\n", "1 A020 = 50"),
     ],
 )
 @pytest.mark.parametrize("piped", [False, True])
 def test_long_files_of_commands(commands: str, last: str, tmp_path: Path, *, piped: bool) -> None:
     """None of them ends where the reads of a pipe or of a file end."""
     (tmp_path / "commands").write_text(commands, "utf-8")
-    command = [sys.executable, "-m", "fieldscribe", "simulate", L200, "--tcp", "0", "--for", "0" if not piped else "3"]
+    command = [sys.executable, "-m", "fieldscribe", "simulate", L200, "--tcp", "0", "--for", "60" if piped else "0"]
     with open(tmp_path / "commands", encoding="utf-8") as file:
         given: dict[str, Any] = {"input": commands} if piped else {"stdin": file}
         done = subprocess.run(command, **given, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout.splitlines()[-2:]) == (0, [last, "0 requests"])
+
+
+def test_no_command_is_carried_out_after_the_end() -> None:
+    command = [sys.executable, "-m", "fieldscribe", "simulate", L200, "--tcp", "0", "--for", "0.1"]
+    text = f"set A020=60{' ' * 1000}\nget A020\n" * 2000
+    done = subprocess.run(command, input=text, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout.splitlines()[-1]) == (0, "0 requests")
 
 
 @pytest.mark.parametrize("device", [L200, "eastron_sdm630"])

@@ -181,6 +181,7 @@ async def _serve(bench: Bench, seconds: float | None, trace: TextIO | None) -> i
     _read_lines(bench, stop)
     with suppress(TimeoutError):
         await asyncio.wait_for(stop.wait(), seconds)
+    stop.set()
     for server in servers:
         server.close()
     requests, complaints = sum(line.requests for line in bench.lines), sum(len(each.complaints) for each, _ in devices)
@@ -204,6 +205,8 @@ def _read_lines(bench: Bench, stop: asyncio.Event) -> None:
 
 def _read_lines_now(source: int, begun: bytearray, bench: Bench, stop: asyncio.Event) -> bool:
     """Carry out what has come; `begun` keeps the beginning of a line. Return False at the end, and after `quit`."""
+    if stop.is_set():
+        return False
     data = os.read(source, _AT_ONCE)
     if not data:
         asyncio.get_running_loop().remove_reader(source)
