@@ -24,7 +24,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from support.asked import asked
 from support.described import group, head, loaded_in, made, shipped, together
-from support.frames_by_hand import at, can_frame, coded
+from support.frames_by_hand import at, can_frame
 from support.models import named
 
 DEVICE = shipped("woodward_mpu2s")
@@ -34,7 +34,6 @@ SCALED_PAGES = replace(
     KITCHEN, points=tuple(replace(one, shape=_SCALED) if one.name == "page" else one for one in KITCHEN.points)
 )
 """A number that several frames have also needs an exponent."""
-FACTOR = coded(DEVICE, "KWUGNSEK")
 EXPONENTS = "321#DD010302000007D0"
 
 

@@ -342,7 +342,7 @@ def test_the_command(capfdbinary: pytest.CaptureFixture[bytes]) -> None:
     out = capfdbinary.readouterr().out
     assert out.decode("latin-1") == exported(DEVICE, 3)
     assert loaded(out.decode("latin-1")).get_message_by_frame_id(0x323)
-    all_of_it = b"is not for the form json\n  hint: leave it out: the model has all variants, no unit"
+    all_of_it = b"is not for the form json\n  hint: leave it out: the model has all variants, and belongs to no unit"
     for words, message in (
         (["dbc", "hitachi_l200"], b""),
         (["dbc", "woodward_mpu2s", "--unit", "99"], b""),

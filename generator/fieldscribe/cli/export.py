@@ -37,9 +37,8 @@ def run_export(arguments: Namespace) -> int:
     """Print the export; return the exit code."""
     for option, value in (("unit", arguments.unit), ("variant", arguments.variant or None)):
         if value is not None and arguments.form == _JSON:
-            raise StopError(
-                f"--{option} is not for the form {_JSON}", "leave it out: the model has all variants, no unit"
-            )
+            hint = "leave it out: the model has all variants, and belongs to no unit"
+            raise StopError(f"--{option} is not for the form {_JSON}", hint)
     device = open_device(arguments)
     try:
         if arguments.form == _JSON:
